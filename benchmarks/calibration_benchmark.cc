@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loop that never changes: figures of other benchmarks are compared, over versions and machines,
-// as ratios to it.
+// A loop that never changes: results of other benchmarks are compared as ratios to it, between
+// versions and machines.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace {
 
-/// A million steps of integers, square roots and a table that fits into the second cache.
+/// A million steps of integer arithmetic, square roots and a table that fits into the L2 cache.
 void calibration(benchmark::State& state) {
   constexpr std::size_t kEntries = std::size_t{1} << 14U;
   std::vector<double> table(kEntries, 1.0);

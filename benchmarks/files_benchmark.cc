@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast reads go to CSV and come from it; see BENCHMARK.md.
+// Throughput of writing reads to CSV and reading them; see BENCHMARK.md.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// Of 1,000 tags with EPCs of 96 bits, by two antennas in 16 channels.
+/// Reads of 1,000 tags with 96-bit EPCs, by two antennas in 16 channels.
 std::vector<TagRead> reads(std::size_t count) {
   std::vector<TagRead> all(count);
   for (std::size_t i = 0; i < count; ++i) {

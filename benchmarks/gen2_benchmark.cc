@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast inventory is simulated: seconds of it a second, with all tags of one field in range.
-// Each second the field is told anew ten times, as by a robot that drives. BENCHMARK.md has the
+// Speed of simulated inventory: simulated seconds per second, with all tags of one field in range.
+// The field is updated ten times per simulated second, as by a moving robot. BENCHMARK.md has the
 // results.
 #include <benchmark/benchmark.h>
 
@@ -23,7 +23,7 @@ void run(benchmark::State& state, const LinkSettings& link, Session session, Tar
   InventorySettings settings;
   settings.session = session;
   settings.target = target;
-  settings.capture_db = 6.0;  // None is 6 dB above the rest, but all must be summed.
+  settings.capture_db = 6.0;  // None is 6 dB above the others, but all must be summed.
   TagMemories memories;
   Inventory inventory(link, settings, memories, 1, 1);
   inventory.start(Time{});
@@ -50,7 +50,7 @@ void dual_target_in_s0(benchmark::State& state) {
 void single_target_in_s1(benchmark::State& state) { run(state, {}, Session::kS1, Target::kA); }
 void single_target_in_s2(benchmark::State& state) { run(state, {}, Session::kS2, Target::kA); }
 
-/// Reads a second with links from slow to fast, dual target in S0, all replies made out.
+/// Reads per second with links from slow to fast, dual target in S0, all replies decoded.
 void reads(benchmark::State& state, const LinkSettings& link) {
   run(state, link, Session::kS0, Target::kAlternate, 1.0);
 }

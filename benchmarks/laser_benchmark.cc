@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast laser scans are: rays a second of simulate_scan() with 720 beams, of RayScene alone, and
-// of Embree itself with the same rays, in the small warehouse and, where the environment's
+// Speed of laser scans: rays per second of simulate_scan() with 720 beams, of RayScene alone, and
+// of Embree itself with the same rays, in the small warehouse and, if the environment variable
 // TAGFIELD_AWS_WORLD names it, in the AWS warehouse. BENCHMARK.md has the results and the command.
 #include <benchmark/benchmark.h>
 #if TAGFIELD_EMBREE >= 4
@@ -44,7 +44,7 @@ RigidTransform on_circle(Time time) {
   return from_planar(1.5 * std::cos(angle), 1.5 * std::sin(angle), angle + 1.57);
 }
 
-/// 32 scans' rays, each scan's from its own place.
+/// Rays of 32 scans, each from another position.
 std::vector<std::vector<Ray>> scans_of_rays(const LaserParameters& laser) {
   std::vector<std::vector<Ray>> scans(32);
   for (std::size_t k = 0; k < scans.size(); ++k) {
@@ -66,7 +66,7 @@ void report(benchmark::State& state, const Scene& scene, std::int64_t rays) {
   state.counters["triangles"] = static_cast<double>(triangle_count(scene));
 }
 
-/// The scene's solids and nothing else, as Embree's tutorials do it.
+/// Only the scene's solids, set up as in Embree's tutorials.
 class EmbreeScene {
  public:
   EmbreeScene(const Scene& scene, RTCSceneFlags flags)

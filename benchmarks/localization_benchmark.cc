@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long each method takes for one tag of 700 reads, and of more and fewer; see BENCHMARK.md.
+// Time that each method takes for one tag with 700 reads, and with more and fewer; see
+// BENCHMARK.md.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr int kReads = 700;
 
-/// Read at `p_WT` so often in 47 s from an S-shaped way of 14 m; RSSI in whole decibels.
+/// A tag at `p_WT`, read that often in 47 s from an S-shaped path of 14 m; RSSI in whole decibels.
 std::vector<PhaseSample> read_at(const Eigen::Vector3d& p_WT, unsigned seed, int reads = kReads) {
   const double step_m = 0.02 * kReads / reads;
   std::mt19937_64 rng(seed);
@@ -36,7 +37,7 @@ std::vector<PhaseSample> read_at(const Eigen::Vector3d& p_WT, unsigned seed, int
   return samples;
 }
 
-/// The tag 2.5 m beside the way.
+/// A tag 2.5 m beside the path.
 LocalizationProblem one_tag(int reads = kReads) {
   const Eigen::Vector3d p_WT(6.0, 2.5, 0.9);
   LocalizationProblem problem;
@@ -48,7 +49,7 @@ LocalizationProblem one_tag(int reads = kReads) {
   return problem;
 }
 
-/// For those that need them: four reference tags around it, as well read.
+/// For methods that need them: four reference tags around it with as many reads.
 void add_reference_tags(LocalizationProblem& problem) {
   for (const double x : {5.0, 7.0}) {
     for (const double y : {1.5, 3.5}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast a robot that finds its way by itself is simulated: mapping, and localizing and driving
-// on the map, as multiples of real time, in the paper's warehouse and, where the environment's
+// Speed of simulated autonomous robots: mapping, and localizing and driving on the map, as
+// multiples of real time, in the paper's warehouse and, if the environment variable
 // TAGFIELD_AWS_WORLD names it, in the AWS warehouse. BENCHMARK.md has the results and the command.
 #include <benchmark/benchmark.h>
 
@@ -62,7 +62,7 @@ void Mapping(benchmark::State& state) {
   count_time(state, simulated_s);
 }
 
-/// With the antennas' reads, on a map that was made before.
+/// Including the antennas' reads, on an existing map.
 void LocalizationAndDriving(benchmark::State& state) {
   std::optional<Ready> made = ready(state);
   if (!made) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long the paths from one antenna to many tags take: images_of() and trace_paths() for each
-// tag, in the small warehouse and, where the environment's TAGFIELD_AWS_WORLD names it, in the AWS
-// warehouse; by order, number of tags, of facets, and what part of it the rays take.
+// Computation time of the paths from one antenna to many tags: images_of() and trace_paths() for
+// each tag, in the small warehouse and, if the environment variable TAGFIELD_AWS_WORLD names it, in
+// the AWS warehouse; by order, number of tags, of facets, and the rays' share of it.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ RadioSceneOptions options_for(const Scene& scene, bool opaque, double least_face
   return options;
 }
 
-/// An antenna that goes around the middle of the hall.
+/// An antenna that circles around the middle of the hall.
 Eigen::Vector3d on_circle(int update) {
   const double angle = 0.1 * update;
   return {1.5 * std::cos(angle), 1.5 * std::sin(angle), 1.0};
@@ -92,8 +92,8 @@ void run(benchmark::State& state, const RadioScene& scene, const TraceOptions& o
   report(state, scene, totals, places.size());
 }
 
-/// One update. Arguments: world, order, tags, whether all solids are opaque, whether to look for
-/// what is in the way, and the least facet [cm²].
+/// One update. Arguments: world, order, tags, whether all solids are opaque, whether to check for
+/// obstructions, and the least facet [cm²].
 void update(benchmark::State& state) {
   if (world_file(state.range(0)) == nullptr) {
     state.SkipWithError("TAGFIELD_AWS_WORLD names no world");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast the signal models are: links a second of the paper's model and of the link budget, an
+// Speed of the signal models: links per second of the paper's model and of the link budget, an
 // antenna that moves among tags with reflections, and Gen2 inventory with four antennas.
 // BENCHMARK.md has the results and the commands.
 #include <benchmark/benchmark.h>
@@ -80,8 +80,8 @@ void paper_model(benchmark::State& state) {
   count_links(state, links);
 }
 
-/// The same reads by a loop over arrays that knows nothing of populations, ranges or replies: what
-/// paper_model is to be measured by.
+/// The same reads by a loop over arrays without populations, ranges or replies: the reference for
+/// paper_model.
 struct PaperArrays {
   std::vector<double> x, y, z, distance, phase, rssi;
   std::vector<std::uint64_t> key, first, second;
@@ -149,7 +149,7 @@ void paper_model_by_hand(benchmark::State& state) {
   count_links(state, all.x.size());
 }
 
-/// All links of an antenna; the receiver's noise and steps are not part of a link.
+/// All links of an antenna; the receiver's noise and quantization are not part of a link.
 void link_budget(benchmark::State& state, const RadioModel& model) {
   const TagPopulation tags = tags_around(1000, Eigen::Vector3d::Zero());
   const auto world = world_at("");
@@ -169,7 +169,7 @@ void link_budget(benchmark::State& state, const RadioModel& model) {
   count_links(state, tags.size());
 }
 
-/// The same as RadioAir asks for them in empty space.
+/// Same, as requested by RadioAir in empty space.
 void straight_links(benchmark::State& state, const RadioModel& model) {
   const TagPopulation tags = tags_around(1000, Eigen::Vector3d::Zero());
   const auto world = world_at("");
@@ -188,8 +188,8 @@ void straight_links(benchmark::State& state, const RadioModel& model) {
   count_links(state, tags.size());
 }
 
-/// The budget with patterns and polarization of upright dipoles on tags that stand as they like,
-/// by a loop over arrays: what link_budget is to be measured by.
+/// The budget with patterns and polarization of upright dipoles on tags in arbitrary orientations,
+/// by a loop over arrays: the reference for link_budget.
 struct DipoleArrays {
   std::vector<double> x, y, z, qw, qx, qy, qz, re, im, tag_dbm, reply_dbm, slope_x, slope_y,
       slope_z;
@@ -230,7 +230,7 @@ void link_by_hand(const RadioModel& model, const Eigen::Vector3d& p_WA, double w
       const double ux = dx / d;
       const double uy = dy / d;
       const double uz = dz / d;
-      // The tag's wire, and what of both lies across the way.
+      // The tag's wire, and the components of both wires perpendicular to the path.
       const double wx = 2.0 * (qx[i] * qz[i] + qw[i] * qy[i]);
       const double wy = 2.0 * (qy[i] * qz[i] - qw[i] * qx[i]);
       const double wz = 1.0 - 2.0 * (qx[i] * qx[i] + qy[i] * qy[i]);
@@ -308,7 +308,8 @@ RadioModel without_any_effect() {
   return model;
 }
 
-/// An antenna at walking pace or at rest, 15 updates a second, that reads all it hears.
+/// An antenna at walking pace or at rest, 15 updates per second, that reads every tag that it
+/// receives.
 void one_antenna(benchmark::State& state, const std::string& path, const Eigen::Vector3d& middle,
                  double speed_m_s = 0.3) {
   if (path.empty() || !is_there(path)) {
@@ -347,7 +348,7 @@ void small_warehouse(benchmark::State& state) {
   one_antenna(state, TAGFIELD_SOURCE_DIR "/worlds/small_warehouse.sdf", {1.4, 0.0, 0.0});
 }
 
-/// Four antennas of one reader by turns, noise, steps, hopping and half turns on.
+/// Four antennas of one reader in turn, with noise, quantization, hopping and π ambiguity.
 void gen2(benchmark::State& state) {
   RadioModel model = strong_model();
   model.plan = known_plan("etsi_low");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast the headless simulator is: the paper's experiment, many tags, and the cost of a read
-// from 100 to 100,000 tags. BENCHMARK.md has the results and the command.
+// Speed of the headless simulator: the paper's experiment, many tags, and the cost of a read for
+// 100 to 100,000 tags. BENCHMARK.md has the results and the command.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -60,8 +60,8 @@ void clear(Recording& recording) {
   recording.truth.distances.clear();
 }
 
-/// Steps the scenario to its end again and again; counts reads and simulated time for each second.
-/// Placing the tags, once for each run, is not timed.
+/// Repeatedly steps the scenario to its end; counts reads and simulated time per second. Placing
+/// the tags, once per run, is not timed.
 void run_steps(benchmark::State& state, const Scenario& scenario) {
   double reads = 0.0;
   double simulated_s = 0.0;
@@ -88,8 +88,8 @@ void run_steps(benchmark::State& state, const Scenario& scenario) {
   state.counters["time_per_read"] = Counter(reads, Counter::kIsRate | Counter::kInvert);
 }
 
-/// scenarios/paper_warehouse.yaml, simulated and localized on one core; loading, files and page
-/// excepted.
+/// scenarios/paper_warehouse.yaml, simulated and localized on one core, without loading, files and
+/// page.
 void PaperWarehouse(benchmark::State& state) {
   Diagnostics diagnostics;
   const Scenario scenario =
@@ -104,7 +104,7 @@ void PaperWarehouse(benchmark::State& state) {
 }
 BENCHMARK(PaperWarehouse)->Unit(benchmark::kMillisecond);
 
-/// 10,000 tags a metre apart in a hall of 100 m by 100 m, as a warehouse has them.
+/// 10,000 tags a metre apart in a hall of 100 m by 100 m, as in a warehouse.
 void TenThousandTagsInAHall(benchmark::State& state) {
   Scenario scenario = four_antennas();
   add_tag_grid(scenario, 10'000, 1.0);
@@ -112,7 +112,7 @@ void TenThousandTagsInAHall(benchmark::State& state) {
 }
 BENCHMARK(TenThousandTagsInAHall)->Unit(benchmark::kMillisecond);
 
-/// 10,000 tags on 5 m by 5 m: every antenna reads every tag in every update.
+/// 10,000 tags in an area of 5 m by 5 m: every antenna reads every tag in every update.
 void TenThousandTagsAllInRange(benchmark::State& state) {
   Scenario scenario = four_antennas();
   add_tag_grid(scenario, 10'000, 0.05);
@@ -120,7 +120,7 @@ void TenThousandTagsAllInRange(benchmark::State& state) {
 }
 BENCHMARK(TenThousandTagsAllInRange)->Unit(benchmark::kMillisecond);
 
-/// A hall that grows with its tags, one to the square metre: the cost of each read must not grow.
+/// A hall that grows with its tags, one per square metre: the cost per read must not grow.
 void GrowingHall(benchmark::State& state) {
   Scenario scenario = four_antennas();
   add_tag_grid(scenario, state.range(0), 1.0);
@@ -128,7 +128,7 @@ void GrowingHall(benchmark::State& state) {
 }
 BENCHMARK(GrowingHall)->RangeMultiplier(10)->Range(100, 100'000)->Unit(benchmark::kMillisecond);
 
-/// Tags on 5 m by 5 m, all of which each of the four antennas reads in every update.
+/// Tags in an area of 5 m by 5 m, all of which each of the four antennas reads in every update.
 void TagsInRange(benchmark::State& state) {
   Scenario scenario = four_antennas();
   add_tag_grid(scenario, state.range(0), 5.0 / std::sqrt(static_cast<double>(state.range(0))));

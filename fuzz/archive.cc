@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Archives of tables: the first byte says of which kind.
+// Archives of tables: the first byte selects the kind.
 #include <array>
 
 #include "adapters/archive/unpacked_archive.h"
@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string path =
       fuzz::folder().write(kNames.at(data[0] % kNames.size()), fuzz::text_of(data + 1, size - 1));
   return fuzz::refused_or_taken([&] {
-    // A bomb is cut off long before: what is kept small here would only fill the disk.
+    // Small limits, as decompression bombs would only fill the disk.
     const ArchiveLimits limits = {.bytes = std::uint64_t{1} << 20U, .entries = 100};
     const UnpackedArchive unpacked(path, limits);
     const std::filesystem::path tables = unpacked.tables();

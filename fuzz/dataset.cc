@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Other people's tables: a table's form as YAML, a zero, the table.
+// Third-party tables: a table's format as YAML, a NUL, the table.
 #include "fuzz/input.h"
 #include "tagfield/files/dataset_csv.h"
 #include "tagfield/scenario/dataset_format.h"

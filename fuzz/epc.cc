@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// EPCs as URIs, as hexadecimals and as patterns, and the specification of events: the first byte
-// says which.
+// EPCs as URIs, as hexadecimals and as patterns, and the specification of events, as selected by
+// the first byte.
 #include "tagfield/epc/epc.h"
 
 #include "fuzz/input.h"
@@ -10,7 +10,7 @@
 namespace tagfield::fuzz {
 namespace {
 
-/// What is understood comes back as it was.
+/// A parsed EPC must survive a round trip.
 void convert(const std::string& text) {
   const Epc epc = epc_from_uri(text);
   if (id_uri(epc_from_bytes(epc_bytes(epc))) != id_uri(epc)) std::abort();

@@ -26,7 +26,7 @@ void ask(std::string_view text) {
   const auto steps = std::make_shared<Steps>();
   world.attach(steps);
   http::Api api({}, hall, 1);
-  const std::atomic<bool> stop{true};  // What takes long is not worked out here.
+  const std::atomic<bool> stop{true};  // Long computations are skipped.
   for (std::size_t i = 0; i < kMostRequests && !text.empty(); ++i) {
     const std::string request = line_of(text);
     const std::string body = line_of(text);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the fuzzers share: an input as a file, and which exceptions may come of it.
+/// Shared by the fuzzers: an input as a file, and which exceptions are acceptable.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 #include "tagfield/base/error.h"
 
-/// libFuzzer's entry point: each door's source has its own.
+/// libFuzzer's entry point, defined by each fuzz target.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace tagfield::fuzz {
@@ -22,7 +22,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};  // NOLINT: bytes as text.
 }
 
-/// A folder of this process' own, gone with it.
+/// A temporary folder of this process, deleted with it.
 class InputFolder {
  public:
   InputFolder() {
@@ -37,7 +37,7 @@ class InputFolder {
   InputFolder(const InputFolder&) = delete;
   InputFolder& operator=(const InputFolder&) = delete;
 
-  /// Its path, the file holding `text`.
+  /// Writes `text` to a file and returns its path.
   std::string write(const std::string& name, std::string_view text) const {
     const std::string path = path_ + "/" + name;
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
@@ -54,7 +54,7 @@ inline const InputFolder& folder() {
   return one;
 }
 
-/// Only Error may come out: anything else ends the process, and is a finding.
+/// Only Error may be thrown: anything else ends the process, and is a finding.
 template <class Use>
 int refused_or_taken(const Use& use) {
   try {

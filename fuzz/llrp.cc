@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client's messages to a reader, as they come one after the other over its connection; between
-// two of them the world goes on for a while.
+// A client's messages to a reader, one after the other as on its connection; between two of them
+// the world advances for a while.
 #include <algorithm>
 
 #include "adapters/llrp/llrp_reader.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kStepsBetween = 3;
 
-/// What it says is a whole message each.
+/// Checks that each message sent is complete.
 class Client final : public llrp::ClientLine {
  public:
   void send(const llrp::Bytes& message, bool /*is_report*/) override {
@@ -20,7 +20,7 @@ class Client final : public llrp::ClientLine {
       std::abort();
     }
     const llrp::Message read = llrp::message_of(message);
-    // The first field of a few is no parameter; of the others every byte must be in one.
+    // A few messages begin with a field that is not a parameter; these consist of parameters only.
     if (read.type == 61 || read.type == 63 || read.type == 100) {
       llrp::parameters_of(llrp::ByteReader(read.body));
     }
@@ -61,7 +61,7 @@ void converse(const std::uint8_t* data, std::size_t size) {
     try {
       length = llrp::length_in(data);
     } catch (const llrp::Fault&) {
-      return;  // Ends the connection.
+      return;  // Closes the connection.
     }
     if (length > size) return;
     const llrp::Bytes bytes(data, data + length);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings of ROS: the first byte says of which kind, and whether reads are held or told anew.
+// ROS recordings: the first byte selects the kind, and whether reads are held or read again.
 #include <array>
 #include <cstdlib>
 

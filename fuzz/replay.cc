@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a door over files, where libFuzzer is not there: past findings, and a corpus.
+// Runs a fuzz target on files, without libFuzzer: past findings, and a corpus.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -7,7 +7,7 @@
 
 #include "fuzz/input.h"
 
-// What a door lets out ends the process, as under libFuzzer.
+// An escaping exception ends the process, as with libFuzzer.
 int main(int count, char** arguments) {  // NOLINT(bugprone-exception-escape)
   for (int i = 1; i < count; ++i) {
     std::ifstream file(arguments[i], std::ios::binary);
@@ -18,7 +18,7 @@ int main(int count, char** arguments) {  // NOLINT(bugprone-exception-escape)
     const std::vector<char> bytes{std::istreambuf_iterator<char>(file),
                                   std::istreambuf_iterator<char>()};
     const std::vector<std::uint8_t> data(bytes.begin(), bytes.end());
-    // Whoever looks at what failed sees at which file.
+    // Shows which file caused a failure.
     std::printf("%s\n", arguments[i]);
     std::fflush(stdout);
     LLVMFuzzerTestOneInput(data.data(), data.size());

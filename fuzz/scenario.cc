@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario's YAML, without a world that it could name outside.
+// A scenario's YAML, without loading a world.
 #include "fuzz/input.h"
 #include "tagfield/scenario/scenario_yaml.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of settings besides scenarios: the first byte says which.
+// Settings files other than scenarios: the first byte selects the kind.
 #include "fuzz/input.h"
 #include "tagfield/experiment/bench/suite.h"
 #include "tagfield/scenario/calibration_profile.h"

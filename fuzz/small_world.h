@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A small live world, for doors that lead into one.
+/// A small live world, for interfaces to one.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@
 
 namespace tagfield::fuzz {
 
-/// Two antennas of one reader before three tags, with Gen2.
+/// Two antennas of one reader in front of three tags, with Gen2.
 inline Scenario small_hall() {
   Scenario scenario;
   scenario.name = "hall";
@@ -36,7 +36,7 @@ inline Scenario small_hall() {
   return scenario;
 }
 
-/// Lets the world go on by some steps at a time.
+/// Advances the world by several steps at a time.
 class Steps final : public LiveMember {
  public:
   void go_on(LiveWorld& world, int steps) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables: the first byte says which.
+// Tables: the first byte selects the kind.
 #include "fuzz/input.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/files/tag_heights_csv.h"
-#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/files/tag_positions_csv.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace tagfield;
@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return fuzz::refused_or_taken([&] {
     switch (data[0] % 4) {
       case 0: {
-        // What was read can be written and read again.
+        // A table that was read can be written and read again.
         const std::string again =
             fuzz::folder().write("again.csv", reads_to_csv(read_reads_csv(path)));
         read_reads_csv(again);
@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         read_poses_csv(path);
         break;
       case 2:
-        read_tag_places_csv(path);
+        read_tag_positions_csv(path);
         break;
       default:
         read_tag_heights_csv(path);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A world as SDF; or, by the first byte, a mesh or the image of a heightmap that one names.
+// A world as SDF; or, depending on the first byte, a mesh or heightmap image that a world refers
+// to.
 #include "fuzz/input.h"
 #include "tagfield/sdf/load_world.h"
 

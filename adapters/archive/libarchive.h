@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// libarchive, loaded when a table comes in an archive.
+/// libarchive, loaded when a table is read from an archive.
 #pragma once
 
 #include <archive.h>
@@ -10,7 +10,7 @@
 
 namespace tagfield {
 
-/// Its functions, by their names without "archive_".
+/// Functions of libarchive, named without the prefix "archive_".
 struct LibArchive : LoadedLibrary {
   LibArchive() : LoadedLibrary("Archives", TAGFIELD_LIBARCHIVE) {}
   decltype(&archive_entry_filetype) entry_filetype = function("archive_entry_filetype");

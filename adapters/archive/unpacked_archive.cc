@@ -29,7 +29,7 @@ using OpenArchive = std::unique_ptr<archive, FreeArchive>;
   fail({path, 0}, fmt::format("can't be unpacked: {}", why == nullptr ? "damaged" : why));
 }
 
-/// Only what libarchive reads by itself: no other programs are started.
+/// Only formats that libarchive reads itself: no external programs are started.
 OpenArchive opened(const std::string& path) {
   OpenArchive of(libarchive().read_new());
   if (!of) throw Error(path + ": can't be read: out of memory");
@@ -98,8 +98,8 @@ class Unpacking {
     return true;
   }
 
-  /// As a compressed table libarchive takes whatever it is given; filters beside the last, which is
-  /// none, undo a compression.
+  /// libarchive accepts any file as a compressed table; only if there are filters besides the last
+  /// one, "none", is it really compressed.
   void require_compression() const {
     if (libarchive().format(archive_.get()) != ARCHIVE_FORMAT_RAW) return;
     if (libarchive().filter_count(archive_.get()) < 2) {
@@ -107,7 +107,7 @@ class Unpacking {
     }
   }
 
-  /// Where the entry comes to be. Throws Error unless that is inside of the folder.
+  /// Path to which to unpack the entry. Throws Error unless that is inside of the folder.
   [[nodiscard]] fs::path place_of(archive_entry* entry) const {
     if (libarchive().format(archive_.get()) == ARCHIVE_FORMAT_RAW) return fs::path(path_).stem();
     const char* name = libarchive().entry_pathname(entry);

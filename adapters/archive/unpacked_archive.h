@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tables out of archives, into a folder that goes when it is no longer needed.
+/// Tables from archives, unpacked into a temporary folder.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,21 @@
 
 namespace tagfield {
 
-/// What an archive may hold at most: it may be small and yet become endless.
+/// Limits on what is unpacked: even a small archive may unpack to endless data.
 struct ArchiveLimits {
-  std::uint64_t bytes = std::uint64_t{1} << 32U;  ///< Of all its tables together.
+  std::uint64_t bytes = std::uint64_t{1} << 32U;  ///< Of all tables together.
   std::uint64_t entries = 100'000;
 };
 
-/// Whether the name is one of an archive of files (.tar, .tar.zst, .tar.gz, .tar.xz, .tgz) or of a
+/// Whether the path names an archive of files (.tar, .tar.zst, .tar.gz, .tar.xz, .tgz) or a
 /// compressed table (.csv.zst, .csv.gz, .csv.xz).
 bool is_archive(const std::string& path);
 
-/// The tables (*.csv) of an archive, in a temporary folder that is deleted with this.
+/// The tables (*.csv) of an archive, in a temporary folder that the destructor deletes.
 class UnpackedArchive {
  public:
-  /// Throws Error "FILE: …" if it can't be read or holds more than `limits`, links, or names that
-  /// lead out of it; and where Tagfield was built without libarchive.
+  /// Throws Error "FILE: …" if the archive can't be read, exceeds `limits`, or contains links or
+  /// names that lead out of it; and if Tagfield was built without libarchive.
   explicit UnpackedArchive(const std::string& path, const ArchiveLimits& limits = {});
   ~UnpackedArchive();
   UnpackedArchive(const UnpackedArchive&) = delete;
@@ -31,8 +31,8 @@ class UnpackedArchive {
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
-  /// The table that was compressed, or the one folder of the archive that has tables. Throws Error
-  /// where there is none or more than one.
+  /// The compressed table, or the archive's only folder with tables. Throws Error if there is none
+  /// or more than one.
   [[nodiscard]] std::filesystem::path tables() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of unpacked_archive.cc, in builds without libarchive.
+// Replaces unpacked_archive.cc in builds without libarchive.
 #include "adapters/archive/unpacked_archive.h"
 #include "tagfield/base/error.h"
 

@@ -25,9 +25,9 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kLeastDelay(1000);
 constexpr milliseconds kMostDelay(30'000);
-/// From look to look at whether to give up.
+/// Interval between checks of whether to give up.
 constexpr milliseconds kLook(50);
-/// What is kept of an answer, to be told.
+/// Length of a response in messages.
 constexpr std::size_t kMostAnswer = 300;
 
 /// The URL without user and password, for messages.
@@ -66,11 +66,11 @@ void require_header(const std::string& line) {
   }
 }
 
-/// What the repository said.
+/// The repository's response.
 struct Answer {
   long status = 0;      ///< 0 for none.
-  std::string text;     ///< Its begin, or why there is none.
-  milliseconds wait{};  ///< As long as it asks for.
+  std::string text;     ///< Its beginning, or why there is none.
+  milliseconds wait{};  ///< The requested delay.
 };
 
 bool is_success(const Answer& answer) { return answer.status >= 200 && answer.status < 300; }
@@ -85,7 +85,7 @@ std::string to_string(const Answer& answer) {
   return fmt::format("HTTP {}{}{}", answer.status, answer.text.empty() ? "" : ": ", answer.text);
 }
 
-/// One connection, kept open from request to request.
+/// One connection, kept open between requests.
 class Connection {
  public:
   Connection(const std::string& url, const CaptureOptions& options,
@@ -146,7 +146,7 @@ class Connection {
     text.append(bytes, std::min(one * count, kMostAnswer - std::min(text.size(), kMostAnswer)));
     return one * count;
   }
-  /// As curl_easy_perform(), which would look at is_ending_ once a second only.
+  /// As curl_easy_perform(), which would check is_ending_ only once a second.
   CURLcode perform() {
     curl_.multi_add_handle(multi_, handle_);
     int under_way = 1;
@@ -290,7 +290,7 @@ class CaptureClient::Impl {
     changed_.notify_all();
   }
 
-  /// The first loss is told at once, the sum at the end.
+  /// The first loss is reported immediately, the total at the end.
   void lose_oldest() {
     if (counts_.lost == 0) {
       warn(fmt::format("the queue of {} events is full: the oldest are lost from now on",
@@ -320,13 +320,13 @@ class CaptureClient::Impl {
 
   CaptureOptions options_;
   std::string name_;
-  std::unique_ptr<Connection> connection_;  ///< Of the thread alone.
+  std::unique_ptr<Connection> connection_;  ///< Used by the thread only.
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::string> waiting_;
-  std::size_t posted_ = 0;     ///< Under way.
+  std::size_t posted_ = 0;     ///< In progress.
   std::size_t most_ = 1;       ///< In the next document.
-  std::uint64_t answers_ = 0;  ///< That settled something.
+  std::uint64_t answers_ = 0;  ///< Conclusive ones.
   CaptureCounts counts_;
   bool was_away_ = false;
   bool is_finished_ = false;

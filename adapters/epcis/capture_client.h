@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Events to a repository of EPCIS 2.0, by its capture interface.
+/// Sends events to an EPCIS 2.0 repository through its capture interface.
 #pragma once
 
 #include <chrono>
@@ -13,48 +13,50 @@
 namespace tagfield {
 
 struct CaptureOptions {
-  /// Events that are kept while the repository is away or slow. Of more the oldest are lost.
+  /// Events that are buffered while the repository is unreachable or slow. When the buffer is full,
+  /// the oldest are dropped.
   std::size_t most_events = 100'000;
-  /// In one document.
+  /// Maximum per document.
   std::size_t events_per_document = 500;
-  /// Further lines of each request's header, "Name: value": a key that the repository asks for.
+  /// Additional header lines of each request, "Name: value", such as an API key that the repository
+  /// requires.
   std::vector<std::string> headers;
-  /// How long one request may take.
+  /// For one request.
   std::chrono::milliseconds timeout{30'000};
-  /// Gets a line where the repository goes, comes back or refuses, and where events are lost.
-  /// Called from any thread; it must not call the client. Empty for silence.
+  /// Receives one line when the repository becomes unreachable, comes back or refuses events, and
+  /// when events are lost. Called from any thread; must not call the client. Empty for no warnings.
   std::function<void(const std::string& line)> warn;
 };
 
-/// What became of events.
+/// Events by outcome.
 struct CaptureCounts {
   std::size_t taken = 0;     ///< Handed to the client.
-  std::size_t captured = 0;  ///< The repository said that it has them.
-  std::size_t refused = 0;   ///< It said that it won't.
-  std::size_t lost = 0;      ///< There was no room for them, or no time left at the end.
+  std::size_t captured = 0;  ///< Accepted by the repository.
+  std::size_t refused = 0;   ///< Rejected by the repository.
+  std::size_t lost = 0;      ///< Dropped because the buffer was full or time ran out at the end.
 };
 
-/// Posts EPCISDocuments of the events that have come meanwhile, one after the other. Where the
-/// repository can't be reached, is busy (408, 425, 429) or in trouble (5xx) a document is posted
-/// again after 1, 2, 4, … 30 s, or as long as the repository asks for (Retry-After, up to 30 s), so
-/// that after a lost answer an event may be there twice. Too large a document (413) is halved. What
-/// else is no success is a refusal. Redirections aren't followed.
+/// Posts EPCISDocuments, one after the other, each with the events that have arrived meanwhile. If
+/// the repository is unreachable, busy (408, 425, 429) or failing (5xx), a document is posted again
+/// after 1, 2, 4, … 30 s, or after the delay that the repository requests (Retry-After, up to 30
+/// s), so if a response is lost, an event may be captured twice. A document that is too large (413)
+/// is halved. Any other failure counts as a refusal. Redirections aren't followed.
 class CaptureClient {
  public:
-  /// Doesn't wait for the repository. Throws Error where `url` is not http:// or https://, a
-  /// header is none, or Tagfield was built without libcurl.
+  /// Doesn't wait for the repository. Throws Error if `url` is not http:// or https://, a header is
+  /// malformed, or Tagfield was built without libcurl.
   CaptureClient(const std::string& url, const CaptureOptions& options);
-  /// finish()es without patience.
+  /// As finish(), but without waiting.
   ~CaptureClient();
   CaptureClient(const CaptureClient&) = delete;
   CaptureClient& operator=(const CaptureClient&) = delete;
 
-  /// An event as EpcisEvents makes it, without a context. From any thread; never waits for the
-  /// network.
+  /// Queues an event as made by EpcisEvents, without a context. Callable from any thread; never
+  /// waits for the network.
   void capture(const std::string& event);
-  /// Waits until the repository has said what it does with all of them, or gives up where it said
-  /// nothing for so long or `gives_up` (which may be empty) says so, and counts the rest as lost.
-  /// Then nothing more is captured.
+  /// Waits until the repository has answered for all events. Gives up if it has not answered for
+  /// `patience`, or when `gives_up` (which may be empty) returns true, and counts the rest as lost.
+  /// No more events are captured after that.
   void finish(std::chrono::milliseconds patience, const std::function<bool()>& gives_up);
   [[nodiscard]] CaptureCounts counts() const;
   /// The repository's address without user and password, for messages.

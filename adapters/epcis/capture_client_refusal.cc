@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of capture_client.cc, in builds without libcurl.
+// Replaces capture_client.cc in builds without libcurl.
 #include "adapters/epcis/capture_client.h"
 #include "tagfield/base/error.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// libcurl, loaded when it is first needed: linked, it would bring two dozen libraries into every
-/// start of a program that hardly ever posts anything, and make that an eighth longer.
+/// libcurl, loaded when it is first needed: linking it would load two dozen libraries, and make
+/// each start an eighth longer, in a program that hardly ever posts anything.
 #pragma once
 
 #include <curl/curl.h>
@@ -10,7 +10,7 @@
 
 namespace tagfield {
 
-/// Its functions, by their names without "curl_".
+/// Functions of libcurl, named without the prefix "curl_".
 struct LibCurl : LoadedLibrary {
   LibCurl();
   decltype(&curl_global_init) global_init = function("curl_global_init");
@@ -33,8 +33,8 @@ struct LibCurl : LoadedLibrary {
   decltype(&curl_url_cleanup) url_cleanup = function("curl_url_cleanup");
 };
 
-/// Loaded and initialized, the first time that it is called; it stays until the process ends. From
-/// any thread. Throws Error where it is not there.
+/// The library, loaded and initialized on the first call; it stays loaded until the process ends.
+/// Callable from any thread. Throws Error if it is not installed.
 const LibCurl& libcurl();
 
 }  // namespace tagfield

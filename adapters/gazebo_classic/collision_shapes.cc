@@ -22,7 +22,7 @@ MeshPart part_of(const SubMesh& own) {
           [&own](std::uint32_t i) { return own.GetIndex(i); }};
 }
 
-/// A named part, or all.
+/// A named part of a mesh, or all of it.
 struct Part {
   std::string name;
   bool is_centred = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The shapes of Gazebo's collisions as Tagfield's, as tagfield/sdf has them from the same file.
+/// Gazebo's collision shapes as Tagfield's, equal to those that tagfield/sdf loads from the same
+/// file.
 #pragma once
 
 #include <array>
@@ -14,8 +15,8 @@
 
 namespace tagfield {
 
-/// Boxes, cylinders, spheres and planes as they are; meshes as Gazebo's own loaders have them,
-/// whose corners may differ by 1e-6 of their size from those that tagfield/sdf reads. Meshes are
+/// Boxes, cylinders, spheres and planes are exact; meshes are as Gazebo's own loaders read them:
+/// their vertices may differ by 1e-6 of their size from those that tagfield/sdf reads. Meshes are
 /// copied once for each file, part and scale.
 class CollisionShapes {
  public:
@@ -23,7 +24,7 @@ class CollisionShapes {
   std::optional<Shape> shape_of(gazebo::physics::Collision& collision);
 
  private:
-  /// File, part, whether that is centred, scale.
+  /// File, part, whether the part is centred, scale.
   using MeshKey = std::tuple<std::string, std::string, bool, std::array<double, 3>>;
   MeshPtr mesh_of(gazebo::physics::MeshShape& shape);
 

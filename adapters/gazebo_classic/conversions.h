@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Gazebo 11's times as Tagfield's, and its poses.
+/// Conversions of Gazebo 11's times and poses to Tagfield's.
 #pragma once
 
 #include <gazebo/common/Time.hh>

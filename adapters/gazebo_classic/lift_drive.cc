@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// The most it catches up with, where something held it or a joint began elsewhere [m/s].
+/// Maximum speed for catching up, if something blocked the joint or it started elsewhere [m/s].
 constexpr double kMostSpeed = 2.0;
 
 }  // namespace

@@ -12,9 +12,9 @@
 
 namespace tagfield {
 
-/// The parameters of the model's plugins of file `filename`, those of a later one in place of those
-/// of an earlier: so a world's `<include>` adds to what the included model says. None if `own` is
-/// not the first of these plugins, which speaks for all of them.
+/// The parameters of all of the model's plugins with file `filename`; those of a later plugin
+/// override those of an earlier one, so a world's `<include>` can extend an included model. None if
+/// `own` is not the first of these plugins, as the first one acts for all of them.
 std::optional<std::vector<RawParameter>> plugin_parameters(gazebo::physics::Model& model,
                                                            const sdf::ElementPtr& own,
                                                            const std::string& filename);

@@ -18,7 +18,7 @@ namespace tagfield {
 namespace {
 
 constexpr const char* kWorldFrame = "world";
-/// Simulated time in which a fault may pass.
+/// Simulated time for which a fault is tolerated, as it may be temporary.
 constexpr Duration kPatience = std::chrono::milliseconds(200);
 
 }  // namespace
@@ -66,7 +66,7 @@ RfidWorld::Handle RfidWorld::add_antenna(AntennaOnLink antenna) {
         "there is an antenna called '{}' already; give this one another <antenna>", name));
   }
   driver_.add_antenna(std::make_shared<const FieldAntenna>(antenna.antenna));
-  // At once, so that its topics can be subscribed to while the world is paused.
+  // Immediately, so that its topics can be subscribed to while the world is paused.
   worker_.post(driver_.take_step(std::max(last_, Time{})));
   Antenna entry;
   entry.on_link = std::move(antenna);
@@ -116,7 +116,7 @@ void RfidWorld::describe(TagGroup& group) {
 void RfidWorld::set_up(Antenna& antenna, Time now) {
   FieldAntenna field = antenna.on_link.antenna;
   field.is_fixed = antenna.link->IsStatic();
-  // What is mounted for good has a known place.
+  // The pose of a permanently mounted antenna is known.
   if (field.parent_frame.empty() && field.is_fixed) field.parent_frame = kWorldFrame;
   if (!field.parent_frame.empty() && field.parent_frame != kWorldFrame) {
     const gazebo::physics::ModelPtr model = antenna.link->GetModel();
@@ -140,7 +140,7 @@ void RfidWorld::find_link(Entry& entry, Time now, const SetUp& set_up, const cha
     set_up();
   } catch (const std::exception& error) {
     entry.link.reset();
-    // A tag that was deleted may hold its ID a little longer than its successor takes to come.
+    // A deleted tag may still hold its ID for a moment when its successor appears.
     if (!entry.faulty_since) entry.faulty_since = now;
     entry.refused = now - *entry.faulty_since >= kPatience || now < *entry.faulty_since;
     all_found_ = all_found_ && entry.refused;
@@ -150,8 +150,8 @@ void RfidWorld::find_link(Entry& entry, Time now, const SetUp& set_up, const cha
   }
 }
 
-/// Looks for the links of what was added since the last step. Between two steps all models are
-/// whole; a link that is not there has gone again, and its plugin goes with it.
+/// Finds the links of tags and antennas added since the last step. Between two steps all models are
+/// complete; a missing link was removed again, and its plugin will be unloaded too.
 void RfidWorld::find_links(Time now) {
   if (all_found_) return;
   all_found_ = true;
@@ -181,8 +181,9 @@ void RfidWorld::after_step() {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     cost_.physics_s += took.count();
   }
-  // Not counted above: where this waits, it waits for the reads, which count themselves. Whoever
-  // adds an antenna meanwhile must not get there before, with what came or went since this step.
+  // Not included above: if this blocks, it waits for the reads, which are counted separately.
+  // Posted with the lock held: an antenna that is added concurrently must not overtake this step
+  // with later changes.
   worker_.post(std::move(step));
 }
 
@@ -196,7 +197,7 @@ FieldStep RfidWorld::gather(Time now) {
   return step;
 }
 
-/// What stands in the world is copied here and made ready for waves by the worker.
+/// The static world is copied here; the worker prepares it for wave propagation.
 void RfidWorld::gather_world(FieldStep& step) {
   const bool is_of_use = std::any_of(step.due.begin(), step.due.end(), [](const AntennaDue& due) {
     return meets_world(due.antenna->parameters);

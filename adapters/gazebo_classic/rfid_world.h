@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The tags and antennas of one Gazebo world, and their updates in simulated time.
+/// The tags and antennas of a Gazebo world, and their updates in simulated time.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@
 
 namespace tagfield {
 
-/// Tags that come and go together.
+/// Tags that are added and removed together.
 struct TagsOnLink {
   std::string place;  ///< For messages.
   std::string link;   ///< Scoped name.
-  /// Called once, when the link is there with its whole model. May throw Error.
+  /// Called once, when the link exists with its whole model. May throw Error.
   std::function<std::vector<TagOnLink>(gazebo::physics::Link&)> describe;
 };
 
@@ -39,21 +39,21 @@ struct AntennaOnLink {
   std::string model{};  ///< Scoped name of its model.
 };
 
-/// How long updates took, for benchmarks.
+/// Time that updates took, for benchmarks.
 struct FieldCost {
-  std::int64_t updates = 0;  ///< Of antennas, in steps to which no tag came.
-  double physics_s = 0.0;    ///< Wall time that physics waited in them.
-  double reads_s = 0.0;      ///< CPU time of the thread that makes and publishes all reads.
+  std::int64_t updates = 0;  ///< Antenna updates, in steps that add no tag.
+  double physics_s = 0.0;    ///< Wall time for which they blocked physics.
+  double reads_s = 0.0;      ///< CPU time of the thread that generates and publishes all reads.
   std::int64_t reads = 0;
 };
 
-/// One a world: drives a field by Gazebo's physics. At the end of each physics step it looks which
-/// antennas are due by simulated time, gathers where all tags and those antennas are, and hands
-/// that to a FieldWorker. An update is stamped with the time of its step, so reads don't depend on
-/// how fast Gazebo runs.
+/// Drives a field by Gazebo's physics; one per world. At the end of each physics step it checks
+/// which antennas are due by simulated time, collects the poses of all tags and of those antennas,
+/// and passes them to a FieldWorker. An update is stamped with the time of its step, so reads don't
+/// depend on Gazebo's speed.
 ///
-/// Thread-safe: plugins load and unload on other threads than physics, even while physics still
-/// puts their model together. So links are given by name and looked up between two steps.
+/// Thread-safe: plugins are loaded and unloaded on other threads than physics, even while physics
+/// is still assembling their model. So links are given by name and looked up between two steps.
 class RfidWorld {
  public:
   using Handle = std::uint64_t;
@@ -65,35 +65,35 @@ class RfidWorld {
   RfidWorld(const RfidWorld&) = delete;
   RfidWorld& operator=(const RfidWorld&) = delete;
 
-  /// Adds tags; they are read from the next update on. If they can't be described, or an ID is
-  /// taken, that is one error of Gazebo's, and none of them is there.
+  /// Adds tags; they are read from the next update on. If they can't be described or an ID is
+  /// already in use, none of them is added, and Gazebo reports one error.
   Handle add_tags(TagsOnLink tags);
   void remove_tags(Handle handle);
 
-  /// A second antenna on sensors of one name gets its model's in front, as headless. Throws Error
-  /// if the name is taken all the same. If its parent frame is no link of its model, that is one
-  /// error of Gazebo's, and it stays off.
+  /// If an antenna on a sensor of the same name exists already, the new one's name is prefixed with
+  /// its model's, as in headless runs. Throws Error if that name is also taken. If its parent frame
+  /// is not a link of its model, Gazebo reports one error and the antenna stays off.
   Handle add_antenna(AntennaOnLink antenna);
   void remove_antenna(Handle handle);
 
-  /// What the world is made of, for physical models; guessed from names where it is not told.
-  /// Throws Error if it was told already.
+  /// The materials of the world, for physical models; those not given are guessed from names.
+  /// Throws Error if called twice.
   void set_materials(RadioWorldOptions materials);
 
   [[nodiscard]] FieldCost cost() const;
 
  private:
-  /// What is looked up between two steps, as models are whole then.
+  /// Looked up between two steps, when models are complete.
   struct OnLink {
     gazebo::physics::LinkPtr link;  ///< None until it is found.
     std::optional<Time> faulty_since;
-    bool refused = false;  ///< For an error that was told.
+    bool refused = false;  ///< An error was reported.
   };
   struct TagGroup : OnLink {
     Handle handle = 0;
     TagsOnLink on_link;
-    ignition::math::Pose3d X_WL;  ///< When it was told of last.
-    bool told = false;            ///< Whether its tags have a place.
+    ignition::math::Pose3d X_WL;  ///< As last reported.
+    bool told = false;            ///< Whether its tags have a pose.
     std::vector<TagOnLink> tags;
     std::vector<std::uint32_t> numbers;
   };
@@ -119,7 +119,7 @@ class RfidWorld {
   std::function<void(Time)> on_step_;
   mutable std::mutex mutex_;
   Handle next_handle_ = 1;
-  std::vector<TagGroup> groups_;  ///< In rising order of handles.
+  std::vector<TagGroup> groups_;  ///< In ascending order of handles.
   std::map<Handle, Antenna> antennas_;
   bool all_found_ = true;  ///< All links.
   FieldDriver driver_;

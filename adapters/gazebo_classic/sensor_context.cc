@@ -23,7 +23,7 @@ std::vector<std::string> tags_on(const sdf::ElementPtr& link) {
   return names;
 }
 
-/// Names of the tags on all links of a model, models inside it excepted.
+/// Names of the tags on all links of a model, without nested models.
 std::vector<std::string> tags_on_links_of(const gazebo::physics::Model& model) {
   std::vector<std::string> names;
   for (const gazebo::physics::LinkPtr& link : model.GetLinks()) {
@@ -52,8 +52,8 @@ std::string place_of(const gazebo::sensors::Sensor& sensor) {
 
 std::vector<RawParameter> parameters_of(const sdf::ElementPtr& plugin) {
   std::vector<RawParameter> parameters = parameters_in(plugin);
-  // Gazebo's own default of 0 means as often as it can, which no reader does. As it is written, for
-  // Gazebo itself takes what is negative for 0.
+  // Gazebo's own default of 0 means as often as possible, which no reader does. Passed on as text,
+  // because Gazebo itself treats negative values as 0.
   for (const sdf::ElementPtr& rate : children(plugin->GetParent(), "update_rate")) {
     if (rate->Get<double>() != 0.0) {
       parameters.push_back({"update_rate", rate->GetValue()->GetAsString(), {}});

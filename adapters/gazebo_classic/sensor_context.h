@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where a sensor plugin stands: its names and parameters.
+/// Names and parameters of a sensor plugin.
 #pragma once
 
 #include <gazebo/physics/PhysicsTypes.hh>
@@ -16,18 +16,19 @@ namespace tagfield {
 /// "model 'gate', link 'post', sensor 'antenna'", for messages.
 std::string place_of(const gazebo::sensors::Sensor& sensor);
 
-/// The plugin's parameters, and the sensor's <update_rate> where it has one.
+/// The plugin's parameters, and the sensor's <update_rate> if it has one.
 std::vector<RawParameter> parameters_of(const sdf::ElementPtr& plugin);
 
 /// Scoped name of the sensor's model.
 std::string model_name_of(const gazebo::sensors::Sensor& sensor);
 
-/// A tag's ID where it has no EPC: its model's name where it is the model's only tag, else
-/// MODEL::SENSOR, else MODEL::LINK::SENSOR where that is not unique. The same as headless. To be
-/// called when the link's model is whole.
+/// ID of a tag without an EPC, as in headless runs: its model's name if it is the model's only tag,
+/// else MODEL::SENSOR, or MODEL::LINK::SENSOR if that is not unique. To be called once the link's
+/// model is complete.
 std::string tag_id_of(const std::string& sensor, gazebo::physics::Link& link);
 
-/// What the published plugin calls a tag: MODEL::LINK; with ::SENSOR where the link has several.
+/// Name of a tag in the published plugin: MODEL::LINK, followed by ::SENSOR if the link has
+/// several.
 std::string published_name_of(const std::string& sensor, gazebo::physics::Link& link);
 
 }  // namespace tagfield

@@ -12,23 +12,24 @@
 
 namespace tagfield {
 
-/// The wheels of one side: they all turn at one speed, and their mean angle is the side's.
+/// The wheels of one side: they all turn at the same speed, and the side's angle is the mean of
+/// theirs.
 class WheelSide {
  public:
-  /// Throws Error if a joint of these names is missing or is not revolute, naming the parameter
-  /// `key` that they are from.
+  /// Throws Error, which names the parameter `key` that the names come from, if one of these joints
+  /// is missing or is not revolute.
   WheelSide(gazebo::physics::Model& model, const char* key, const std::vector<std::string>& joints,
             double torque_nm);
 
-  /// To turn at `speed` [rad/s] from the next step on.
+  /// Makes the wheels turn at `speed` [rad/s] from the next step on.
   void turn(double speed);
-  /// Mean angle [rad], not wrapped; to be called in each step.
+  /// Mean angle [rad], unwrapped; to be called in each step.
   double angle();
 
  private:
   struct Wheel {
     gazebo::physics::JointPtr joint;
-    double angle = 0.0;  ///< Not wrapped [rad].
+    double angle = 0.0;  ///< Unwrapped [rad].
   };
 
   std::vector<Wheel> wheels_;
@@ -53,7 +54,8 @@ class SkidSteer {
 /// Makes `joint`'s motor run at `speed` [rad/s or m/s] with at most `effort` [N·m or N].
 void run_motor(gazebo::physics::Joint& joint, double speed, double effort);
 
-/// Throws Error where the world's physics is not ODE, whose joint motors drive wheels and lift.
+/// Throws Error if the world's physics engine is not ODE, whose joint motors drive wheels and
+/// lifts.
 void expect_ode(gazebo::physics::World& world);
 
 }  // namespace tagfield

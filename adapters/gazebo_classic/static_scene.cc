@@ -14,7 +14,7 @@
 namespace tagfield {
 namespace {
 
-/// Name of the script or "rgba(r, g, b, a)" of the colour that a visual wears; "" for neither.
+/// Name of a visual's material script, or "rgba(r, g, b, a)" of its colour; "" if it has neither.
 std::string material_of(const sdf::ElementPtr& visual) {
   if (!visual->HasElement("material")) return "";
   const sdf::ElementPtr material = visual->GetElement("material");
@@ -28,7 +28,7 @@ std::string material_of(const sdf::ElementPtr& visual) {
   return fmt::format("rgba({:g}, {:g}, {:g}, {:g})", color.R(), color.G(), color.B(), color.A());
 }
 
-/// Names of the link's visuals and of what they wear.
+/// Names of the link's visuals and of their materials.
 std::vector<std::string> looks_of(gazebo::physics::Link& link) {
   std::set<std::string> looks;
   for (const sdf::ElementPtr& visual : children(link.GetSDF(), "visual")) {

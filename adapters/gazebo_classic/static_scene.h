@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What stands still in a Gazebo world, for the waves of physical models.
+/// The static part of a Gazebo world, for the wave propagation of physical models.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@ namespace tagfield {
 
 /// The collisions of all static links, in Gazebo's order of models, with the names that
 /// tagfield/sdf gives them. Links that can move (robots, boxes that can be pushed) are left out,
-/// and so are names of the materials inside meshes' files. To be used between two steps of physics.
+/// and so are the material names inside mesh files. To be used between two physics steps.
 class StaticScene {
  public:
   explicit StaticScene(gazebo::physics::WorldPtr world) : world_(std::move(world)) {}
 
-  /// Whether models came or went since the last gather(), or static ones were moved, or none was
-  /// gathered yet. One comparison a static model that waves meet.
+  /// Whether models were added or removed, or static ones moved, since the last gather(), or none
+  /// has been gathered yet. Costs one comparison per static model with collisions.
   [[nodiscard]] bool has_changed() const;
-  /// Warns of each shape that is not supported, once.
+  /// Warns once of each unsupported shape.
   Scene gather();
-  /// The next has_changed() is true.
+  /// Makes the next has_changed() true.
   void forget() { model_count_ = 0; }
 
  private:
@@ -41,7 +41,7 @@ class StaticScene {
   CollisionShapes shapes_;
   std::vector<Standing> standing_;
   unsigned model_count_ = 0;
-  std::uint32_t last_model_ = 0;  ///< ID of the last one in the world: they only ever grow.
+  std::uint32_t last_model_ = 0;  ///< ID of the last model in the world: IDs only increase.
   std::set<std::string> warned_of_;
 };
 

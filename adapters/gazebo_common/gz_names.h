@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// All that the versions of Gazebo differ in: Gazebo 11 and Fortress say "ignition", Harmonic,
-/// Ionic and Jetty "gz". TAGFIELD_GZ_SIM is the major version of gz-sim (6 for Fortress, 8, 9, 10),
-/// and not defined in Gazebo 11, and where only messages are sent.
+/// All differences between Gazebo versions: Gazebo 11 and Fortress use the name "ignition",
+/// Harmonic, Ionic and Jetty "gz". TAGFIELD_GZ_SIM is the major version of gz-sim (6 for Fortress,
+/// 8, 9, 10); it is undefined in Gazebo 11 and where only messages are sent.
 #pragma once
 
 #if defined(TAGFIELD_GZ_IS_IGNITION)
@@ -17,7 +17,7 @@ namespace gz_math = gz::math;
 }
 #endif
 
-// Messages, where a file asks for them.
+// Messages, if a file needs them.
 #if defined(TAGFIELD_GZ_TRANSPORT) && defined(TAGFIELD_GZ_IS_IGNITION)
 #include <ignition/msgs/marker.pb.h>
 
@@ -69,7 +69,7 @@ namespace gz_transport = gz::transport;
 namespace tagfield {
 namespace gz_sim = ignition::gazebo;
 namespace gz_common = ignition::common;
-/// Fortress rewinds time and leaves the rest as it is: nobody calls this there.
+/// Fortress only rewinds time and never calls this.
 class ISystemReset {
  public:
   ISystemReset() = default;
@@ -78,9 +78,9 @@ class ISystemReset {
   ISystemReset& operator=(const ISystemReset&) = delete;
   virtual void Reset(const gz_sim::UpdateInfo& info, gz_sim::EntityComponentManager& ecm) = 0;
 };
-// Without the place in our sources that `ignerr` would add: the line says where in the world it is.
+// Without the source location that `ignerr` would add: the line states the location in the world.
 inline void tell_error(const std::string& line) { gz_common::Console::err() << line << "\n"; }
-inline void tell_warning(const std::string& line) { gz_common::Console::warn() << line << "\n"; }
+inline void report_warning(const std::string& line) { gz_common::Console::warn() << line << "\n"; }
 }  // namespace tagfield
 #define TAGFIELD_ADD_SYSTEM(type, ...) \
   IGNITION_ADD_PLUGIN(type, tagfield::gz_sim::System, __VA_ARGS__)
@@ -116,20 +116,21 @@ namespace tagfield {
 namespace gz_sim = gz::sim;
 namespace gz_common = gz::common;
 using gz_sim::ISystemReset;
-// Until Harmonic without the place in our sources that `gzerr` would add: the line says where in
-// the world it is. From Ionic on a message is a line of its own.
+// Up to Harmonic, without the source location that `gzerr` would add: the line states the location
+// in the world. From Ionic on, each message is a line of its own.
 #if TAGFIELD_GZ_SIM == 8
 inline void tell_error(const std::string& line) { gz_common::Console::err() << line << "\n"; }
-inline void tell_warning(const std::string& line) { gz_common::Console::warn() << line << "\n"; }
+inline void report_warning(const std::string& line) { gz_common::Console::warn() << line << "\n"; }
 #else
 inline void tell_error(const std::string& line) { gzerr << line; }
-inline void tell_warning(const std::string& line) { gzwarn << line; }
+inline void report_warning(const std::string& line) { gzwarn << line; }
 #endif
 }  // namespace tagfield
 #define TAGFIELD_ADD_SYSTEM(type, ...) GZ_ADD_PLUGIN(type, tagfield::gz_sim::System, __VA_ARGS__)
 #endif
 
-// The one source that registers a system first says so, others say that they register one too.
+// The first source file that registers a system defines TAGFIELD_FIRST_SYSTEM, the others
+// TAGFIELD_NEXT_SYSTEM.
 #if defined(TAGFIELD_FIRST_SYSTEM) && defined(TAGFIELD_GZ_IS_IGNITION)
 #include <ignition/plugin/Register.hh>
 #elif defined(TAGFIELD_FIRST_SYSTEM)

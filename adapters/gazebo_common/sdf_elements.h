@@ -11,10 +11,10 @@
 
 namespace tagfield {
 
-/// The children of `parent`, which may be null, that are called `name`.
+/// The children of `parent` (which may be null) named `name`.
 std::vector<sdf::ElementPtr> children(const sdf::ElementPtr& parent, const std::string& name);
 
-/// The elements in `parent`; those inside others (`<path><waypoint>`) stand for themselves.
+/// The elements in `parent`; nested ones (`<path><waypoint>`) are parameters of their own.
 std::vector<RawParameter> parameters_in(const sdf::ElementPtr& parent);
 
 }  // namespace tagfield

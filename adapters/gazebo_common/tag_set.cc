@@ -51,7 +51,7 @@ std::vector<TagOnLink> tags_in_table(const std::string& uri, const FindFile& fin
   return tags;
 }
 
-/// The tables named in the set; warns of what is not known there.
+/// The tables named in the set; warns of unknown elements.
 std::vector<std::string> tables_in(const sdf::ElementPtr& set, std::vector<std::string> known,
                                    Diagnostics& diagnostics) {
   std::vector<std::string> tables;

@@ -16,13 +16,13 @@ constexpr Duration kInterval = std::chrono::milliseconds(500);
 constexpr const char* kService = "/marker";
 constexpr const char* kTags = "tagfield_tags";
 constexpr const char* kAntennas = "tagfield_antennas";
-/// Gazebo 11 colours markers by its own materials alone, later ones by colours alone.
+/// Appearance of a marker: Gazebo 11 only supports its own materials, later versions only colours.
 struct Look {
   const char* material;
   ReadColor color;
 };
-/// From the weakest reads to the strongest, and of silent tags. A marker has one look, so tags are
-/// drawn shade by shade.
+/// From the weakest reads to the strongest, then for silent tags. A marker has a single look, so
+/// tags are drawn in one marker per shade.
 constexpr std::array<Look, 6> kShades = {{{"Gazebo/BlueTransparent", {0.0, 0.0, 1.0, 0.5}},
                                           {"Gazebo/GreenTransparent", {0.0, 1.0, 0.0, 0.5}},
                                           {"Gazebo/Green", {0.0, 1.0, 0.0, 1.0}},
@@ -32,7 +32,7 @@ constexpr std::array<Look, 6> kShades = {{{"Gazebo/BlueTransparent", {0.0, 0.0, 
 constexpr int kSilent = static_cast<int>(kShades.size()) - 1;
 constexpr Look kArrow = {"Gazebo/Orange", {1.0, 0.5, 0.0, 1.0}};
 constexpr Look kBall = {"Gazebo/YellowTransparent", {1.0, 1.0, 0.0, 0.15}};
-constexpr double kTagRadius = 0.06;  // [m] larger than a label, to be seen across a hall
+constexpr double kTagRadius = 0.06;  // [m] larger than a label, to be visible across a hall
 constexpr double kArrowLength = 0.5;
 constexpr double kArrowRadius = 0.04;
 
@@ -71,7 +71,7 @@ void add_octahedron(const Eigen::Vector3d& center, Marker& marker) {
     const Eigen::Vector3d sign((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0,
                                (corner & 4) != 0 ? 1.0 : -1.0);
     std::array<int, 3> axes = {0, 1, 2};
-    // Seen from outside, each face is to turn the same way.
+    // Seen from outside, all faces must have the same winding order.
     if (sign.prod() < 0.0) std::swap(axes[1], axes[2]);
     for (const int axis : axes) {
       Eigen::Vector3d tip = center;
@@ -81,7 +81,7 @@ void add_octahedron(const Eigen::Vector3d& center, Marker& marker) {
   }
 }
 
-/// The shade of a colour; silent tags have one of their own.
+/// The shade of a colour; silent tags have a separate one.
 int shade_of(const ReadColor& color) {
   const ReadColor silent = silent_color();
   if (color.red == silent.red && color.green == silent.green && color.blue == silent.blue) {
@@ -136,7 +136,7 @@ void WindowMarkers::draw(Time stamp) {
   for (const auto& [name, antenna] : antennas()) {
     const Eigen::Quaterniond& q = antenna.X_WA.rotation;
     const gz_math::Quaterniond rotation(q.w(), q.x(), q.y(), q.z());
-    // A cylinder stands on z; the antenna looks along x.
+    // A cylinder's axis is z; the antenna's boresight is x.
     const gz_math::Quaterniond along_x = rotation * gz_math::Quaterniond(0.0, 0.5 * M_PI, 0.0);
     const gz_math::Vector3d place = to_gz(antenna.X_WA.translation);
     Marker arrow = marker_of(kAntennas, id++, Marker::CYLINDER);

@@ -11,8 +11,9 @@
 
 namespace tagfield {
 
-/// Draws twice a simulated second, and only while a window is open: each tag as a small octahedron
-/// coloured by the RSSI of its last read, each antenna as an arrow, its range as a ball.
+/// Draws twice per simulated second, and only while a window is open: each tag as a small
+/// octahedron coloured by the RSSI of its last read, each antenna as an arrow, its range as a
+/// sphere.
 class WindowMarkers final : public FieldPicture {
  public:
   WindowMarkers();

@@ -81,7 +81,7 @@ Material material_in(const sdf::ElementPtr& element, Diagnostics& diagnostics) {
   return material;
 }
 
-/// The world's own go before the known ones of the same name.
+/// The world's own materials take precedence over known ones with the same name.
 std::vector<Material> materials_of(const sdf::ElementPtr& plugin, Diagnostics& diagnostics) {
   std::vector<Material> materials;
   for (const sdf::ElementPtr& element : children(plugin, "material")) {

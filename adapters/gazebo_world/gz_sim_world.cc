@@ -22,12 +22,12 @@ using tinyxml2::XMLNode;
 
 constexpr const char* kFile = "tagfield-gz";
 constexpr const char* kSystem = "tagfield::systems::";
-/// The oldest that has custom sensors.
+/// The oldest version with custom sensors.
 constexpr const char* kSdfVersion = "1.8";
-/// Of `gz:`; gz-sim does without, other readers of XML don't.
+/// Of `gz:`; gz-sim does not need it, other XML readers do.
 constexpr const char* kNameSpace = "http://gazebosim.org/schema";
 
-/// What both the robot's plugin and DiffDrive are told, and the plugin's defaults.
+/// Parameters common to the robot's plugin and DiffDrive, and the plugin's defaults.
 struct Wheel {
   const char* ours;
   const char* theirs;
@@ -50,7 +50,7 @@ std::vector<XMLElement*> children(XMLElement* parent, const char* name) {
   return found;
 }
 
-/// Moves all that is in `from` to `to`.
+/// Moves all contents of `from` to `to`.
 void move_content(XMLElement* from, XMLElement* to) {
   while (XMLNode* const child = from->FirstChild()) to->InsertEndChild(child);
 }
@@ -73,7 +73,7 @@ class Converter {
       : file_(std::move(file)), options_(options), diagnostics_(diagnostics) {}
 
   void convert_world(XMLElement* world) {
-    // gz-sim's window has settings of its own.
+    // gz-sim's window has different settings.
     for (XMLElement* const gui : children(world, "gui")) world->DeleteChild(gui);
     XMLElement* const rfid = world->GetDocument()->NewElement("plugin");
     for (XMLElement* const plugin : children(world, "plugin")) {
@@ -108,7 +108,7 @@ class Converter {
   }
 
  private:
-  /// Gazebo 11 finds its own materials without being told where; to gz-sim that is no SDF.
+  /// Gazebo 11 finds its own materials without a URI; gz-sim rejects that as invalid SDF.
   static void complete_script(XMLElement* visual) {
     XMLElement* const material = visual->FirstChildElement("material");
     XMLElement* const script =
@@ -125,7 +125,7 @@ class Converter {
                                   name == nullptr ? "" : fmt::format(" name=\"{}\"", name), what));
   }
 
-  /// gz-sim knows one number: the multiple of real time, 0 for as fast as it can.
+  /// gz-sim has a single number: the multiple of real time, 0 for as fast as possible.
   void set_pace(XMLElement* physics) {
     if (physics->Attribute("name") == nullptr) physics->SetAttribute("name", "physics");
     XMLElement* const rate = physics->FirstChildElement("real_time_update_rate");
@@ -145,7 +145,7 @@ class Converter {
       has_systems =
           has_systems || is_file(*plugin, "gz-sim") || is_file(*plugin, "ignition-gazebo");
     }
-    // At the front, in this order: tags and antennas are looked at after physics.
+    // First, in this order: tags and antennas are processed after physics.
     world->InsertFirstChild(rfid);
     if (has_systems) return;
     for (const auto& [file, name] :
@@ -194,7 +194,7 @@ class Converter {
     model->DeleteChild(plugin);
   }
 
-  /// On the link that it names, or the first.
+  /// Puts the tag set on the link that it names, or the first one.
   void convert_tag_set(XMLElement* model, XMLElement* plugin) {
     XMLElement* const named = plugin->FirstChildElement("link");
     XMLElement* link = model->FirstChildElement("link");

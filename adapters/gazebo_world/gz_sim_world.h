@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A world or a model of Gazebo 11 with Tagfield's plugins as one of gz-sim.
+/// Conversion of a Gazebo 11 world or model with Tagfield's plugins to gz-sim.
 #pragma once
 
 #include <string>
@@ -9,24 +9,25 @@
 
 namespace tagfield {
 
-/// How to write it, as opposed to what is in it.
+/// How to write the world, as opposed to its contents.
 struct GzSimOptions {
-  std::string mcap;           ///< File that the run is recorded to; "" for none.
-  bool stops_at_end = false;  ///< The server ends with the first robot's path.
+  std::string mcap;           ///< File to record the run to; "" for none.
+  bool stops_at_end = false;  ///< The server exits when the first robot finishes its path.
 };
 
-/// The text of an SDF file for gz-sim (Fortress and later), of that of a Gazebo 11 world or model:
+/// The text of an SDF file for gz-sim (Fortress and later), converted from that of a Gazebo 11
+/// world or model:
 ///
 ///   sensors `rfid`, `rfidtag` with the plugins   → custom sensors `rfid_antenna`, `rfid_tag`
 ///   TagfieldTagSetPlugin on a model              → a custom sensor `rfid_tag_set` on its link
 ///   TagfieldMaterialsPlugin on the world         → the world's tagfield::systems::Rfid
-///   TagfieldRobotPlugin                          → gz-sim's DiffDrive, and Waypoints where it has
-///   a path TagfieldLiftPlugin                           → tagfield::systems::Lift sensors `ray` →
-///   `gpu_lidar`
+///   TagfieldRobotPlugin                          → gz-sim's DiffDrive; with a path, also Waypoints
+///   TagfieldLiftPlugin                           → tagfield::systems::Lift
+///   sensors `ray`                                → `gpu_lidar`
 ///
-/// A world gets gz-sim's systems for physics, commands and the scene, unless it has plugins of
-/// gz-sim already. What has no counterpart is left out with a warning. `file` is its name, for
-/// messages. Throws Error if the text is no SDF.
+/// Gz-sim's systems for physics, commands and the scene are added to a world, unless it has gz-sim
+/// plugins already. Anything without a counterpart is left out with a warning. `file` is the name
+/// of the source, for messages. Throws Error if the text is not SDF.
 std::string gz_sim_world(const std::string& text, const std::string& file,
                          const GzSimOptions& options, Diagnostics& diagnostics);
 

@@ -57,7 +57,8 @@ XMLElement* read_base(const Scenario& scenario, XMLDocument& document) {
   return sdf;
 }
 
-/// The first world; a file that holds a model alone becomes a world with it. Others are dropped.
+/// The first world; for a file with only a model, a world that contains it. Other worlds are
+/// dropped.
 XMLElement* world_in(XMLElement* sdf, const std::string& path) {
   XMLElement* world = sdf->FirstChildElement("world");
   XMLElement* const model = sdf->FirstChildElement("model");
@@ -74,7 +75,7 @@ bool is_relative(const std::string& uri) {
   return uri.find("://") == std::string::npos && !uri.empty() && uri.front() != '/';
 }
 
-/// Relative URIs are meant from the file that they stand in, and the world moves to another one.
+/// Relative URIs refer to the location of their file, and the world is written elsewhere.
 void make_uris_absolute(XMLElement* element, const std::string& world_path,
                         const ResourcePaths& resources) {
   for (XMLElement* child = element->FirstChildElement(); child != nullptr;
@@ -87,12 +88,12 @@ void make_uris_absolute(XMLElement* element, const std::string& world_path,
   }
 }
 
-/// Models are to stand where their own poses say, as in load_world().
+/// Models must be at their own poses, as in load_world().
 void drop_state(XMLElement* world) {
   while (XMLElement* const state = world->FirstChildElement("state")) world->DeleteChild(state);
 }
 
-/// Draws of antennas that stand in the world already come from the scenario's seed too.
+/// Random draws of antennas that are part of the world also use the scenario's seed.
 void seed_antennas(XMLElement* element, std::uint64_t seed) {
   for (XMLElement* child = element->FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
@@ -105,7 +106,7 @@ void seed_antennas(XMLElement* element, std::uint64_t seed) {
   }
 }
 
-/// The <physics> that Gazebo takes: the default one, or the first.
+/// The <physics> that Gazebo uses: the default one, or the first.
 XMLElement* physics_of(XMLElement* world) {
   XMLElement* const first = world->FirstChildElement("physics");
   for (XMLElement* physics = first; physics != nullptr;
@@ -131,7 +132,7 @@ void set_pace(XMLElement* world, double real_time) {
                              fmt::format("{}", real_time / seconds));
 }
 
-/// Takes the names that stand in the world, included ones too, out of the supply.
+/// Reserves the names used in the world, including those of included models.
 void reserve_names(const Scene& scene, XMLElement* world, Builder& builder) {
   for (const std::string& model : scene.models) builder.models.reserve(model);
   for (XMLElement* model = world->FirstChildElement("model"); model != nullptr;
@@ -142,8 +143,8 @@ void reserve_names(const Scene& scene, XMLElement* world, Builder& builder) {
   for (const Placement& tag : scene.tags) builder.sensors.reserve(tag.name);
 }
 
-/// Where Gazebo's window looks from, unless the world says so: from the south and above on all
-/// robots, antennas and tags.
+/// Adds the view of Gazebo's window, unless the world has one: from the south and above, with all
+/// robots, antennas and tags in sight.
 void add_view(const Scenario& scenario, XMLElement* world) {
   if (world->FirstChildElement("gui") != nullptr) return;
   Eigen::AlignedBox2d box;

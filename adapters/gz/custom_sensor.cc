@@ -32,7 +32,7 @@ sdf::ElementPtr described_in(const sdf::ElementPtr& sensor, const std::string& t
 
 std::vector<RawParameter> parameters_of(const sdf::ElementPtr& sensor, const std::string& type) {
   std::vector<RawParameter> parameters = parameters_in(described_in(sensor, type));
-  // SDF's own default of 0 means as often as it can, which no reader does.
+  // SDF's own default of 0 means as often as possible, which no reader does.
   for (const sdf::ElementPtr& rate : children(sensor, "update_rate")) {
     if (rate->Get<double>() != 0.0) {
       parameters.push_back({"update_rate", rate->GetValue()->GetAsString(), {}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What gz-sim's entities are called and where they are.
+/// Names and relations of gz-sim's entities.
 #pragma once
 
 #include <optional>
@@ -14,19 +14,20 @@ namespace tagfield {
 /// The entity's parent, or gz_sim::kNullEntity.
 gz_sim::Entity parent_of(gz_sim::Entity entity, const gz_sim::EntityComponentManager& ecm);
 
-/// "" where it has none.
+/// Name of an entity; "" if it has none.
 std::string name_of(gz_sim::Entity entity, const gz_sim::EntityComponentManager& ecm);
 
-/// "model::nested::link", as Gazebo 11 and tagfield/sdf have it: without the world.
+/// "model::nested::link", as in Gazebo 11 and tagfield/sdf: without the world.
 std::string scoped_name_of(gz_sim::Entity entity, const gz_sim::EntityComponentManager& ecm);
 
-/// Whether the nearest model that it is in, or is, can't move.
+/// Whether the entity is static: whether the model that it is, or the nearest one that contains it,
+/// can't move.
 bool is_static(gz_sim::Entity entity, const gz_sim::EntityComponentManager& ecm);
 
-/// Of a sensor on a link.
+/// Names of a sensor on a link, and of its link and model.
 SensorPlace place_of_sensor(gz_sim::Entity sensor, const gz_sim::EntityComponentManager& ecm);
 
-/// A link of the model, by its name.
+/// A link of the model by name.
 std::optional<gz_sim::Entity> link_named(const std::string& name, gz_sim::Entity model,
                                          const gz_sim::EntityComponentManager& ecm);
 

@@ -24,7 +24,7 @@ namespace components = gz_sim::components;
 
 constexpr const char* kWorldFrame = "world";
 
-/// The sensor's frame in its link's, with `relative_to` resolved.
+/// The sensor's pose in its link's frame, with `relative_to` resolved.
 RigidTransform pose_on_link(Entity sensor, const EntityComponentManager& ecm) {
   const auto* const pose = ecm.Component<components::Pose>(sensor);
   return pose == nullptr ? RigidTransform{} : from_gazebo(pose->Data());
@@ -39,7 +39,7 @@ std::string world_name(const EntityComponentManager& ecm) {
 GzField::GzField(Outlets outlets, RadioWorldOptions materials)
     : materials_(std::move(materials)),
       worker_(std::move(outlets),
-              {[](const std::string& warning) { tell_warning("Tagfield: " + warning); },
+              {[](const std::string& warning) { report_warning("Tagfield: " + warning); },
                [](const std::string& error) { tell_error("Tagfield: " + error); }}) {}
 
 GzField::Cost GzField::finish() {
@@ -82,11 +82,11 @@ void GzField::after_step(Time now, bool is_paused, const EntityComponentManager&
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     cost_.step_s += took.count();
   }
-  // Not counted above: where this waits, it waits for the reads, which count themselves.
+  // Not included above: if this blocks, it waits for the reads, which are counted separately.
   worker_.post(std::move(step));
 }
 
-/// What went makes place before what came is looked at; in the order of the world's file.
+/// Removals are processed before additions, which are in the order of the world's file.
 void GzField::find_sensors(Time now, const EntityComponentManager& ecm) {
   ecm.EachRemoved<components::CustomSensor>([&](const Entity& sensor, const auto*) {
     remove_sensor(sensor);
@@ -138,7 +138,7 @@ void GzField::add_antenna(Entity sensor, const sdf::ElementPtr& element, Time no
       at.sensor, antenna_from(at.sensor, parameters_of(element, kAntennaType), {}, diagnostics));
   warn_of_silent(element, diagnostics);
   for (const std::string& warning : diagnostics.warnings()) {
-    tell_warning(place_of(at) + ": " + warning);
+    report_warning(place_of(at) + ": " + warning);
   }
   if (antennas_.count(field.parameters.name) > 0 && field.parameters.name == at.sensor) {
     put_model_in_front(at.model, field);
@@ -156,13 +156,13 @@ void GzField::add_antenna(Entity sensor, const sdf::ElementPtr& element, Time no
   antennas_.emplace(shared->parameters.name, antenna);
 }
 
-/// Where the antenna is, and what its frame is told to hang from.
+/// The antenna's pose on its link, and the parent of its frame.
 GzField::Antenna GzField::mounted(Entity sensor, FieldAntenna& field,
                                   const EntityComponentManager& ecm) {
   Antenna antenna{sensor, parent_of(sensor, ecm), {}, false, pose_on_link(sensor, ecm)};
   field.is_fixed = is_static(sensor, ecm);
-  // What is mounted for good has a known place.
-  antenna.tells_pose = field.is_fixed || !field.parent_frame.empty();
+  // The pose of a permanently mounted antenna is known.
+  antenna.reports_pose = field.is_fixed || !field.parent_frame.empty();
   if (field.parent_frame == kWorldFrame) field.parent_frame.clear();
   if (field.parent_frame.empty()) return antenna;
   const Entity model = parent_of(antenna.link, ecm);
@@ -179,7 +179,7 @@ void GzField::add_tag(Entity sensor, const sdf::ElementPtr& element,
   const SensorTag tag = tag_from(parameters_of(element, kTagType), {}, diagnostics);
   warn_of_silent(element, diagnostics);
   for (const std::string& warning : diagnostics.warnings()) {
-    tell_warning(place_of(at) + ": " + warning);
+    report_warning(place_of(at) + ": " + warning);
   }
   const std::string id =
       tag.epc ? *tag.epc : tag_id_of(at, tags_in_[parent_of(parent_of(sensor, ecm), ecm)]);
@@ -190,7 +190,7 @@ void GzField::add_tag(Entity sensor, const sdf::ElementPtr& element,
 void GzField::add_tag_set(Entity sensor, const sdf::ElementPtr& element,
                           const EntityComponentManager& ecm) {
   Diagnostics diagnostics;
-  // In silence: what is not found is told with its place, once.
+  // Without messages: a missing file is reported once, with its location.
   const auto find = [&](const std::string& uri) {
     const std::string path = gz_sim::asFullPath(uri, element->FilePath());
     return gz_common::systemPaths()->FindFile(path, true, false);
@@ -199,7 +199,7 @@ void GzField::add_tag_set(Entity sensor, const sdf::ElementPtr& element,
       tag_set_in(described_in(element, kTagSetType), {}, find, diagnostics);
   warn_of_silent(element, diagnostics);
   for (const std::string& warning : diagnostics.warnings()) {
-    tell_warning(place_of(place_of_sensor(sensor, ecm)) + ": " + warning);
+    report_warning(place_of(place_of_sensor(sensor, ecm)) + ": " + warning);
   }
   const RigidTransform X_LS = pose_on_link(sensor, ecm);
   for (TagOnLink& tag : tags) tag.X_LT = X_LS * tag.X_LT;
@@ -255,13 +255,13 @@ void GzField::place_tags(Time now, const EntityComponentManager& ecm) {
 void GzField::place(AntennaDue& due, const EntityComponentManager& ecm) const {
   const Antenna& antenna = antennas_.at(due.antenna->parameters.name);
   due.X_WA = from_gazebo(gz_sim::worldPose(antenna.link, ecm)) * antenna.X_LA;
-  if (!antenna.tells_pose) return;
+  if (!antenna.reports_pose) return;
   due.X_PA = antenna.parent
                  ? from_gazebo(gz_sim::worldPose(*antenna.parent, ecm)).inverse() * due.X_WA
                  : due.X_WA;
 }
 
-/// What stands in the world is copied here and made ready for waves by the worker.
+/// The static world is copied here; the worker prepares it for wave propagation.
 void GzField::gather_world(FieldStep& step, const EntityComponentManager& ecm) {
   const bool is_of_use = std::any_of(step.due.begin(), step.due.end(), [](const AntennaDue& due) {
     return meets_world(due.antenna->parameters);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The tags and antennas of one world of gz-sim, and their updates in simulated time.
+/// The tags and antennas of a gz-sim world, and their updates in simulated time.
 #pragma once
 
 #include <map>
@@ -15,35 +15,36 @@
 
 namespace tagfield {
 
-/// Drives a field by gz-sim: after each step it looks which custom sensors came and went and which
-/// antennas are due by simulated time, gathers where all tags and those antennas are, and hands
-/// that to a FieldWorker. An update is stamped with the time of its step, so reads don't depend on
-/// how fast Gazebo runs. Not thread-safe: gz-sim calls a system's updates one after the other.
+/// Drives a field by gz-sim: after each step it checks which custom sensors were added or removed
+/// and which antennas are due by simulated time, collects the poses of all tags and of those
+/// antennas, and passes them to a FieldWorker. An update is stamped with the time of its step, so
+/// reads don't depend on Gazebo's speed. Not thread-safe: gz-sim calls a system's updates one after
+/// the other.
 class GzField {
  public:
   GzField(Outlets outlets, RadioWorldOptions materials);
 
-  /// After physics: what the entities are at `now`. While the world is paused only what comes and
-  /// goes is taken.
+  /// To be called after physics, with the state of the entities at `now`. While the world is
+  /// paused, only additions and removals are processed.
   void after_step(Time now, bool is_paused, const gz_sim::EntityComponentManager& ecm);
-  /// The world begins anew: all sensors are looked for again in the next step.
+  /// For a world that starts over: all sensors are searched for again in the next step.
   void forget_sensors();
 
-  /// How long updates took, for benchmarks.
+  /// Time that updates took, for benchmarks.
   struct Cost {
-    std::int64_t updates = 0;  ///< Of antennas, in steps to which no tag came.
-    double step_s = 0.0;       ///< Wall time that gz-sim waited in them.
+    std::int64_t updates = 0;  ///< Antenna updates, in steps that add no tag.
+    double step_s = 0.0;       ///< Wall time for which they blocked gz-sim.
     WorkDone work;
   };
-  /// With all that was still to be told; no step may follow.
+  /// Finishes all pending work and returns its cost; no step may follow.
   [[nodiscard]] Cost finish();
 
  private:
   struct TagGroup {
     gz_sim::Entity sensor = gz_sim::kNullEntity;
     gz_sim::Entity link = gz_sim::kNullEntity;
-    gz_math::Pose3d X_WL;  ///< When it was told of last.
-    bool is_told = false;  ///< Whether its tags have a place.
+    gz_math::Pose3d X_WL;  ///< As last reported.
+    bool is_told = false;  ///< Whether its tags have a pose.
     std::vector<TagOnLink> tags;
     std::vector<std::uint32_t> numbers;
   };
@@ -51,7 +52,7 @@ class GzField {
     gz_sim::Entity sensor = gz_sim::kNullEntity;
     gz_sim::Entity link = gz_sim::kNullEntity;
     std::optional<gz_sim::Entity> parent;  ///< None for the world.
-    bool tells_pose = false;
+    bool reports_pose = false;
     RigidTransform X_LA;
   };
 
@@ -75,7 +76,7 @@ class GzField {
 
   RadioWorldOptions materials_;
   StaticSolids solids_;
-  std::vector<TagGroup> groups_;             ///< In rising order of sensors.
+  std::vector<TagGroup> groups_;             ///< In ascending order of sensors.
   std::map<std::string, Antenna> antennas_;  ///< By name.
   /// Names of the tag sensors of each model.
   std::map<gz_sim::Entity, std::vector<std::string>> tags_in_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// libtagfield-gz.so, tagfield::systems::Lift: carries what is on a prismatic joint up and down. In
-// <model>:
+// libtagfield-gz.so, tagfield::systems::Lift: moves a prismatic joint and what it carries up and
+// down. In <model>:
 //
 //     <plugin filename="tagfield-gz" name="tagfield::systems::Lift">
 //       <joint>mast_joint</joint> <speed>0.35</speed> <lower>0</lower> <upper>1</upper>
@@ -32,7 +32,7 @@ class Lift final : public gz_sim::System,
       Diagnostics diagnostics;
       parameters_ = lift_from(parameters_in(sdf->Clone()), diagnostics);
       for (const std::string& warning : diagnostics.warnings()) {
-        tell_warning(fmt::format("{}: {}", place, warning));
+        report_warning(fmt::format("{}: {}", place, warning));
       }
       joint_ = find_joint(model, ecm);
     } catch (const Error& error) {

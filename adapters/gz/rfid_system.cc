@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// libtagfield-gz.so, tagfield::systems::Rfid: tags and antennas of a world of gz-sim. In <world>:
+// libtagfield-gz.so, tagfield::systems::Rfid: tags and antennas of a gz-sim world. In <world>:
 //
 //     <plugin filename="tagfield-gz" name="tagfield::systems::Rfid">
 //       <made_of name="rack*">metal</made_of>    <!-- and more: docs/gz.md, "Physical models" -->
-//       <ros2>true</ros2>                        <!-- also into ROS 2; true where it was built in
-//       --> <domain>0</domain>                       <!-- of ROS 2; ROS_DOMAIN_ID, else 0 -->
-//       <clock>false</clock>                     <!-- tell ROS 2 /clock too; false -->
+//       <ros2>true</ros2>                        <!-- publish to ROS 2; true if built in -->
+//       <domain>0</domain>                       <!-- of ROS 2; ROS_DOMAIN_ID, else 0 -->
+//       <clock>false</clock>                     <!-- publish /clock too; false -->
 //       <mcap>run.mcap</mcap>                    <!-- record the same; none -->
 //     </plugin>
 #define TAGFIELD_FIRST_SYSTEM
@@ -36,7 +36,7 @@ namespace {
 constexpr const char* kPlace = "Tagfield";
 constexpr const char* kNodeName = "tagfield_gz";
 
-/// What the plugin's own elements say; the others are materials.
+/// The plugin's own elements; the others are materials.
 struct Settings {
   bool ros2 = ros2::kHasDds;
   std::optional<std::uint32_t> domain;
@@ -52,7 +52,7 @@ bool truth_in(const RawParameter& parameter) {
 
 constexpr std::array<const char*, 4> kOwn = {"ros2", "domain", "clock", "mcap"};
 
-/// Takes what is its own out of the plugin's elements, so that materials are left.
+/// Removes the plugin's own elements and returns them, so that materials are left.
 std::vector<RawParameter> take_own(const sdf::ElementPtr& plugin) {
   std::vector<RawParameter> own;
   for (const char* const key : kOwn) {
@@ -74,12 +74,12 @@ Settings settings_in(const std::vector<RawParameter>& own) {
     if (parameter.key == "mcap") settings.mcap = parameter.value;
   }
   if (!settings.ros2 && (settings.domain || settings.clock)) {
-    tell_warning(fmt::format("{}: <domain> and <clock> have no effect without <ros2>", kPlace));
+    report_warning(fmt::format("{}: <domain> and <clock> have no effect without <ros2>", kPlace));
   }
   return settings;
 }
 
-/// Runs one part of the set-up; where it fails that part is left out, and the server lives.
+/// Runs one part of the set-up; if it fails, that part is left out and the server continues.
 template <class Task>
 void attempt(const char* consequence, const Task& task) {
   try {
@@ -91,7 +91,7 @@ void attempt(const char* consequence, const Task& task) {
 
 }  // namespace
 
-/// One in a world.
+/// One per world.
 class Rfid final : public gz_sim::System,
                    public gz_sim::ISystemConfigure,
                    public gz_sim::ISystemPostUpdate,
@@ -112,7 +112,7 @@ class Rfid final : public gz_sim::System,
                  gz_sim::EventManager& /*events*/) override {
     const sdf::ElementPtr plugin = sdf->Clone();
     const std::vector<RawParameter> own = take_own(plugin);
-    Settings settings{false, {}, false, ""};  // Of wrong ones none counts.
+    Settings settings{false, {}, false, ""};  // If invalid, none is used.
     attempt("ROS 2 and MCAP stay off", [&] { settings = settings_in(own); });
     RadioWorldOptions materials;
     attempt("left out", [&] { materials = materials_of(plugin); });
@@ -138,7 +138,7 @@ class Rfid final : public gz_sim::System,
     Diagnostics diagnostics;
     RadioWorldOptions materials = materials_in(plugin, diagnostics);
     for (const std::string& warning : diagnostics.warnings()) {
-      tell_warning(fmt::format("{}: {}", kPlace, warning));
+      report_warning(fmt::format("{}: {}", kPlace, warning));
     }
     return materials;
   }
@@ -159,7 +159,7 @@ class Rfid final : public gz_sim::System,
     attach(std::make_shared<ros2::Ros2Markers>(sink), outlets);
   }
 
-  /// For benchmarks: what an update took.
+  /// For benchmarks: reports the cost of an update.
   static void report_cost(const GzField::Cost& cost) {
     if (std::getenv("TAGFIELD_REPORT_COST") == nullptr) return;
     const double updates = static_cast<double>(std::max<std::int64_t>(cost.updates, 1));

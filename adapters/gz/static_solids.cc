@@ -24,7 +24,7 @@ using gz_sim::Entity;
 using gz_sim::EntityComponentManager;
 namespace components = gz_sim::components;
 
-/// Name of the script or "rgba(r, g, b, a)" of the colour that a visual wears; "" for neither.
+/// Name of a visual's material script, or "rgba(r, g, b, a)" of its colour; "" if it has neither.
 std::string look_of(const sdf::Material& material) {
   std::string script = material.ScriptName();
   if (!script.empty() && script != "__default__") return script;
@@ -33,7 +33,7 @@ std::string look_of(const sdf::Material& material) {
   return fmt::format("rgba({:g}, {:g}, {:g}, {:g})", color.R(), color.G(), color.B(), color.A());
 }
 
-/// Names of the link's visuals and of what they wear.
+/// Names of the link's visuals and of their materials.
 std::vector<std::string> looks_of(Entity link, const EntityComponentManager& ecm) {
   std::set<std::string> looks;
   for (const Entity visual : ecm.ChildrenByComponents(link, components::Visual())) {
@@ -118,7 +118,7 @@ void StaticSolids::add(Entity collision, const EntityComponentManager& ecm, Scen
     scene.collisions.push_back({name, *shape, from_gazebo(gz_sim::worldPose(collision, ecm)),
                                 looks_of(parent_of(collision, ecm), ecm)});
   } else if (warned_of_.insert(name).second) {
-    tell_warning(
+    report_warning(
         fmt::format("Tagfield: waves pass through '{}': its shape is not supported", name));
   }
 }

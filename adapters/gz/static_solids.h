@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What stands still in a world of gz-sim, for the waves of physical models.
+/// The static part of a gz-sim world, for the wave propagation of physical models.
 #pragma once
 
 #include <array>
@@ -15,18 +15,18 @@
 
 namespace tagfield {
 
-/// The collisions of all static models, in the order in which they came, with the names that
-/// tagfield/sdf gives them. Models that can move are left out, and so are names of the materials
-/// inside meshes' files.
+/// The collisions of all static models, in order of appearance, with the names that tagfield/sdf
+/// gives them. Models that can move are left out, and so are the material names inside mesh files.
 class StaticSolids {
  public:
-  /// To be called in each step, before anything else: notes what comes and goes.
+  /// Registers additions and removals. To be called in each step, before anything else.
   void look(const gz_sim::EntityComponentManager& ecm);
-  /// Whether solids came or went since the last gather(), or were moved, or none was gathered yet.
+  /// Whether solids were added, removed or moved since the last gather(), or none has been gathered
+  /// yet.
   [[nodiscard]] bool has_changed(const gz_sim::EntityComponentManager& ecm) const;
-  /// Warns of each shape that is not supported, once.
+  /// Warns once of each unsupported shape.
   Scene gather(const std::string& world, const gz_sim::EntityComponentManager& ecm);
-  /// The next has_changed() is true.
+  /// Makes the next has_changed() true.
   void forget() { is_new_ = true; }
 
  private:
@@ -34,7 +34,7 @@ class StaticSolids {
     gz_sim::Entity model = gz_sim::kNullEntity;
     gz_math::Pose3d X_WM;
   };
-  /// File, part, whether that is centred, scale.
+  /// File, part, whether the part is centred, scale.
   using MeshKey = std::tuple<std::string, std::string, bool, std::array<double, 3>>;
 
   void add(gz_sim::Entity collision, const gz_sim::EntityComponentManager& ecm, Scene& scene);

@@ -60,7 +60,7 @@ void add_tag(const std::string& id, const Eigen::Vector3d& p_WT, msgs::TagPositi
   set_vector(p_WT, *tag.mutable_position());
 }
 
-/// Letters, digits, '_' and '/' as they are: the part of a topic's name before "rfid".
+/// The part of a topic's name before "rfid": letters, digits, '_' and '/' stay, others become '_'.
 std::string topic_prefix(const std::string& name_space) {
   std::string prefix = "/";
   for (const char c : name_space) {
@@ -87,7 +87,7 @@ struct TransportPublisher::Topics {
   gz_transport::Node::Publisher tags = node.Advertise<msgs::TagPositions>("/rfid/truth/tags");
   gz_transport::Node::Publisher moved =
       node.Advertise<msgs::TagPositions>("/rfid/truth/tags_moved");
-  std::map<std::string, AntennaTopics> antennas;  ///< By name space.
+  std::map<std::string, AntennaTopics> antennas;  ///< By namespace.
 };
 
 TransportPublisher::TransportPublisher() : topics_(std::make_unique<Topics>()) {}
@@ -119,7 +119,7 @@ void TransportPublisher::on_antenna_pose(const AntennaInfo& antenna, const Anten
 }
 
 void TransportPublisher::on_update(const AntennaInfo& antenna, Time stamp) {
-  // Tags at rest are not placed again, and who came late has not heard of them.
+  // Tags at rest are not reported again, so late subscribers have not received them.
   if (are_tags_due(stamp)) publish_tags(stamp);
   const Update update = std::exchange(updates_[antenna.name], {});
   AntennaTopics& topics = topics_in(antenna.name_space);

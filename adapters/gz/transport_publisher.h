@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads, and the truth behind them, as messages on Gazebo's transport.
+/// Reads and their ground truth as messages on Gazebo's transport.
 #pragma once
 
 #include <map>
@@ -13,17 +13,17 @@
 
 namespace tagfield {
 
-/// Publishes what it is told, in simulated time, as messages of the package `tagfield.msgs`, which
-/// is the same for all versions of Gazebo:
+/// Publishes its input, in simulated time, as messages of the package `tagfield.msgs`, which is the
+/// same for all versions of Gazebo:
 ///
-///   /rfid/reads            TagReads       every update of every antenna, also with no read
+///   /rfid/reads            TagReads       every update of every antenna, even without reads
 ///   /rfid/truth/antennas   AntennaTruth   every update of every antenna
 ///   /rfid/truth/tags       TagPositions   all tags when the set changes, and once a second
-///   /rfid/truth/tags_moved TagPositions   those that moved, before the reads
+///   /rfid/truth/tags_moved TagPositions   tags that moved, before the reads
 ///
-/// The first two are under /NAMESPACE for an antenna with a name space. Nobody who subscribes late
-/// is told what was before: this transport keeps no messages, so all tags are told again. What
-/// nobody listens to is not made.
+/// The first two are under /NAMESPACE for an antenna with a namespace. This transport keeps no
+/// messages for late subscribers, so all tags are sent again periodically. Messages without a
+/// subscriber are not generated.
 class TransportPublisher final : public ReadListener, public TruthListener {
  public:
   TransportPublisher();
@@ -44,7 +44,7 @@ class TransportPublisher final : public ReadListener, public TruthListener {
  private:
   struct Topics;
   struct AntennaTopics;
-  /// Of one antenna, since its last update.
+  /// State of one antenna since its last update.
   struct Update {
     RigidTransform X_WA;
     std::vector<TagRead> reads;
@@ -59,7 +59,7 @@ class TransportPublisher final : public ReadListener, public TruthListener {
   std::map<std::string, Eigen::Vector3d> places_;  ///< By tag.
   std::set<std::string> moved_;
   bool has_changed_ = false;
-  Time told_ = Time::min();  ///< All tags.
+  Time told_ = Time::min();  ///< When all tags were last sent.
 };
 
 }  // namespace tagfield

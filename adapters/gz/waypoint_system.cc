@@ -73,7 +73,7 @@ class Waypoints final : public gz_sim::System,
     Diagnostics diagnostics;
     parameters_ = robot_from(parameters_in(plugin), diagnostics);
     for (const std::string& warning : diagnostics.warnings()) {
-      tell_warning(fmt::format("{}: {}", place, warning));
+      report_warning(fmt::format("{}: {}", place, warning));
     }
     commands_ = node_.Advertise<gz_msgs::Twist>(topic);
     if (!commands_) throw Error(fmt::format("<topic> is '{}', expected a topic's name", topic));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Whom a server on somebody's machine answers.
+/// Access checks of a server on a user's machine.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 namespace tagfield::http {
 
 /// Whether a request's Host header names this machine: an IP address, localhost or `own_name`, with
-/// a port or without. A site elsewhere that has its name point here (DNS rebinding) does not.
+/// or without a port. Rejects foreign sites whose name resolves to this machine (DNS rebinding).
 bool is_own_host(std::string_view host, std::string_view own_name);
 
-/// Whether a request with this Origin header ("" for none) comes from our own page, or from no page
-/// at all.
+/// Whether a request with this Origin header ("" for none) comes from our own page, or not from a
+/// page at all.
 bool is_own_origin(std::string_view origin, std::string_view host);
 
-/// Whether both are the same, in a time that does not tell how much of them is.
+/// Whether both are equal, compared in a time that does not depend on how much of them matches.
 bool is_same_secret(std::string_view given, std::string_view secret);
 
-/// 128 bits at random as hexadecimal digits, of the system's generator.
+/// 128 random bits from the system's generator, as hexadecimal digits.
 std::string new_token();
 
 }  // namespace tagfield::http

@@ -22,12 +22,12 @@
 namespace tagfield::http {
 namespace {
 
-/// A hall is at most 100 km, as in scenarios.
+/// Halls extend to 100 km at most, as in scenarios.
 constexpr double kMostPlace_m = 1e5;
 constexpr double kMostStep_s = 1e6;
 constexpr std::size_t kMostCoverageCells = 40'000;
-constexpr double kLeastCell_m = 0.25;  ///< Where nobody asks for another.
-/// What is added by others, besides the scenario's own.
+constexpr double kLeastCell_m = 0.25;  ///< Default minimum.
+/// Limits on what clients can add to the scenario.
 constexpr std::size_t kMostTags = 200'000;
 constexpr std::size_t kMostAntennas = 1'000;
 constexpr std::size_t kMostObstacles = 10'000;
@@ -64,7 +64,7 @@ const LiveAntenna& antenna_in(const LiveWorld& world, const std::string& name) {
   throw Error(fmt::format("there is no antenna called '{}'", name));
 }
 
-/// A tag like another one of the world's, or like its first.
+/// A tag of the same kind as another one of the world, or as its first.
 TagSpec tag_of(JsonArguments& body, const LiveWorld& world) {
   TagSpec tag;
   tag.id = body.text("id");
@@ -81,7 +81,7 @@ TagSpec tag_of(JsonArguments& body, const LiveWorld& world) {
   return tag;
 }
 
-/// What waves don't notice would change nothing.
+/// Throws Error if no antenna's waves would be affected, as nothing would change.
 void require_notice(const LiveWorld& world) {
   const auto& antennas = world.antennas();
   const bool any = std::any_of(antennas.begin(), antennas.end(), [](const LiveAntenna& antenna) {
@@ -117,7 +117,7 @@ ObstacleSpec obstacle_of(JsonArguments& body, const LiveWorld& world) {
   return obstacle;
 }
 
-/// What is asked for of a floor's coverage.
+/// A request for a floor's coverage.
 struct CoverageQuestion {
   Scenario scenario;
   std::vector<DriveSample> samples;
@@ -127,13 +127,14 @@ struct CoverageQuestion {
 
 double reach_of(double range_m) { return std::min(range_m, 100.0); }
 
-/// As small as there may be cells, and a few less, in centimetres.
+/// The smallest cell size within the limit on their number, with a small margin, in whole
+/// centimetres.
 double fitting_cell(double range_m) {
   const double most_in_a_row = std::sqrt(static_cast<double>(kMostCoverageCells)) - 2.0;
   return std::ceil(100.0 * 2.0 * reach_of(range_m) / most_in_a_row) / 100.0;
 }
 
-/// Around the antenna, as far as it may read.
+/// A grid around the antenna, as far as it may read.
 CoverageGrid grid_around(const Eigen::Vector3d& p_WA, double range_m, double cell_m) {
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_of(range_m));
   const Eigen::AlignedBox2d region(p_WA.head<2>() - reach, p_WA.head<2>() + reach);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What HTTP clients ask of a live world, and what they are told: docs/live.md, openapi.json.
+/// The HTTP API of a live world: docs/live.md, openapi.json.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ namespace tagfield::http {
 /// A request whose address, origin and length have been checked.
 struct ApiRequest {
   std::string method;  ///< "GET", "POST", "DELETE".
-  std::string target;  ///< As it came: "/api/tags/tag%201/move?x=1".
+  std::string target;  ///< As received: "/api/tags/tag%201/move?x=1".
   std::string body;
 };
 
@@ -28,7 +28,8 @@ struct ApiResponse {
   std::string body;  ///< JSON.
 };
 
-/// An answer, or what is still to be worked out, by a thread that holds up nobody.
+/// A response, or a function that computes it and may take long, to be run where it blocks nothing
+/// else.
 using ApiAnswer = std::variant<ApiResponse, std::function<ApiResponse()>>;
 
 /// Whether the request changes the world.
@@ -36,22 +37,22 @@ bool is_command(const ApiRequest& request);
 
 class Api {
  public:
-  /// `scene`: the scenario's world. `seed` as the live world's.
+  /// `scene`: the scenario's world. `seed`: that of the live world.
   Api(const Scene& scene, const Scenario& scenario, std::uint64_t seed);
   ~Api();
   Api(Api&&) noexcept;
   Api& operator=(Api&&) noexcept;
 
-  /// Where tags are, as far as reads say; before it answers.
+  /// Adds the tag positions estimated from reads; to be called before the first answer().
   void add(std::shared_ptr<const LiveEstimates> estimates);
-  /// Where antennas were planned (plan_layer_to_json()); before it answers.
+  /// Adds planned antennas (plan_layer_to_json()); to be called before the first answer().
   void add_plan(std::string json);
 
-  /// For the thread that runs `world`. Never throws: what is wrong is a response of its own, 4xx
-  /// with {"error": "one line"}. `stop` ends what is being worked out.
+  /// To be called on the thread that runs `world`. Never throws: an invalid request yields a 4xx
+  /// response with {"error": "one line"}. `stop` cancels a pending computation.
   ApiAnswer answer(LiveWorld& world, const ApiRequest& request, const std::atomic<bool>& stop);
 
-  /// "POST /api/tags/{id}/move", for all that there are.
+  /// All routes, such as "POST /api/tags/{id}/move".
   [[nodiscard]] static std::vector<std::string> routes();
 
  private:
@@ -59,7 +60,7 @@ class Api {
   std::unique_ptr<Impl> impl_;
 };
 
-/// {"error": message}.
+/// Response with {"error": message}.
 ApiResponse api_error(int status, const std::string& message);
 
 }  // namespace tagfield::http

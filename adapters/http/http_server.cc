@@ -75,7 +75,7 @@ class HttpServer::Impl {
   void accept() {
     acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
-      // Too many at once are turned away; where the machine has no more files, it rests.
+      // Excess connections are refused; if the machine is out of file descriptors, it pauses.
       if (!error && context_.connections < kMostConnections) {
         socket.set_option(tcp::no_delay(true), error);
         serve_connection(context_, std::move(socket));

@@ -16,12 +16,12 @@ namespace tagfield::http {
 
 struct HttpOptions {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 8080;  ///< 0: any that is free.
-  /// That commands must bring ("Authorization: Bearer …"); "" for none.
+  std::uint16_t port = 8080;  ///< 0 for any free one.
+  /// Token that commands must carry ("Authorization: Bearer …"); "" for none.
   std::string token;
 };
 
-/// Who answers requests to the API; from any thread.
+/// Answers API requests, from any thread.
 class Answerer {
  public:
   using Answered = std::function<void(ApiAnswer)>;
@@ -31,11 +31,11 @@ class Answerer {
   Answerer(const Answerer&) = delete;
   Answerer& operator=(const Answerer&) = delete;
 
-  /// Calls `answered` once, from whatever thread, or drops it where nobody will answer any more.
+  /// Calls `answered` once, from any thread, or drops it if the request will never be answered.
   virtual void ask(const ApiRequest& request, const std::atomic<bool>& stop, Answered answered) = 0;
 };
 
-/// By a live world, between two of its steps.
+/// Answers from a live world, between two of its steps.
 class LiveAnswerer final : public Answerer {
  public:
   /// Both must outlive this.
@@ -47,13 +47,13 @@ class LiveAnswerer final : public Answerer {
   Api& api_;
 };
 
-/// Serves in a thread of its own. What comes in is bounded in size, number and time, and must be
-/// meant for this machine: requests under another host's name, or commands of another site's pages,
-/// are refused. A client that falls behind loses its oldest frames and reads, with a count.
+/// Serves on its own thread. Input is limited in size, number and time, and must be addressed to
+/// this machine: requests for another host name, and commands from other sites' pages, are refused.
+/// A client that falls behind loses its oldest frames and reads, and gets their number.
 class HttpServer {
  public:
-  /// `answerer` must outlive this. `feed`: of what happens; null where nothing does. Throws Error
-  /// where the address can't be listened on.
+  /// `answerer` must outlive this. `feed`: the source of frames and reads; null for none. Throws
+  /// Error if the server can't listen on the address.
   HttpServer(Answerer& answerer, std::shared_ptr<LiveFeed> feed, const HttpOptions& options);
   /// Ends all connections.
   ~HttpServer();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a request's body asks for: one JSON object, taken apart with care.
+/// Arguments in a request's body: one JSON object, validated.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +12,11 @@
 
 namespace tagfield::http {
 
-/// Takes the values of a JSON object one by one. All throw Error, one line that names the key and
-/// what was expected.
+/// Extracts the values of a JSON object one by one. All functions throw Error, one line that names
+/// the key and the expected value.
 class JsonArguments {
  public:
-  /// `body`: a JSON object, or nothing at all for one without keys.
+  /// `body`: a JSON object; empty text counts as one without keys.
   explicit JsonArguments(const std::string& body);
 
   [[nodiscard]] bool has(const std::string& key) const;
@@ -25,9 +25,9 @@ class JsonArguments {
   /// Finite and from `least` to `most`.
   double number(const std::string& key, double least, double most);
   double number(const std::string& key, double least, double most, double otherwise);
-  /// So many finite numbers within ±`most`.
+  /// `count` finite numbers within ±`most`.
   std::vector<double> numbers(const std::string& key, std::size_t count, double most);
-  /// Complains of keys that nobody asked for.
+  /// Throws Error if there are keys that were not requested.
   void finish() const;
 
  private:

@@ -44,7 +44,7 @@ Json LaserView::scans(const LiveWorld& world, bool needed) {
   std::uint64_t key = 0;
   for (const LivePose& robot : world.robots()) {
     LaserParameters laser = laser_;
-    laser.sweep_s = 0.0;  // As of one moment.
+    laser.sweep_s = 0.0;  // All beams at the same time.
     const auto pose = [&](Time /*stamp*/) { return robot.X_W; };
     all.push_back(scan_json(robot, laser,
                             simulate_scan(rays_, laser, number, pose, obstacles, seed_, key++)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the robots' lasers see, for those who watch.
+/// Laser scans of the robots, for viewers.
 #pragma once
 
 #include <chrono>
@@ -17,9 +17,10 @@ class LaserView {
  public:
   LaserView(const Scene& scene, const Scenario& scenario, std::uint64_t seed);
 
-  /// A scan a robot: {"robot", "origin": the scanner's pose [x, y, z, qx, qy, qz, qw], "angle_min",
-  /// "angle_step" [rad], "ranges" [m], 0 where nothing is within range}. Null where the last scans
-  /// still hold, or were asked for a tenth of a second of real time ago, unless it is `needed`.
+  /// One scan per robot: {"robot", "origin": the scanner's pose [x, y, z, qx, qy, qz, qw],
+  /// "angle_min", "angle_step" [rad], "ranges" [m], 0 where nothing is within range}. Null if the
+  /// time has not advanced since the last scans, or they were returned less than a tenth of a
+  /// second of real time ago, unless `needed`.
   nlohmann::ordered_json scans(const LiveWorld& world, bool needed);
 
  private:

@@ -11,7 +11,7 @@
 namespace tagfield::http {
 namespace {
 
-/// Twenty a second: pages move things smoothly in between.
+/// Twenty per second: pages interpolate in between.
 constexpr std::chrono::milliseconds kFrameEvery(50);
 
 bool antenna_moves(const AntennaSpec& spec) {
@@ -71,13 +71,13 @@ void LiveFeed::on_step(LiveWorld& world, Time /*now*/) {
 }
 
 void LiveFeed::on_tasks(LiveWorld& world) {
-  // What others have changed is seen while nothing goes on, too.
+  // Changes by clients are shown even while the world is paused.
   if (has_frame_clients_ && world.is_paused()) tell_frame(world);
 }
 
 void LiveFeed::tell_reads(const LiveWorld& world) {
   if (fresh_.empty()) return;
-  // Numbered as they stand, and not as they happen to be heard.
+  // Numbered as in the world, and not in the order in which they are first read.
   for (const LiveAntenna& antenna : world.antennas()) {
     ports_.set(antenna.spec.parameters.reader, antenna.spec.parameters.name, antenna.port);
   }

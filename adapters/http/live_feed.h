@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What happens in a live world, told to those who watch: frames for pages, reads for programs.
+/// Events of a live world for viewers: frames for pages, reads for programs.
 #pragma once
 
 #include <atomic>
@@ -24,10 +24,10 @@ namespace tagfield::http {
 /// Reads of one step, each as a line of JSON.
 struct ReadLines {
   std::vector<TagRead> reads;
-  std::vector<std::string> lines;  ///< Ending in a newline; of the same number.
+  std::vector<std::string> lines;  ///< One per read, each ending in a newline.
 };
 
-/// Gets frames. Called by the thread that simulates: it must return at once.
+/// Receives frames. Called by the simulation thread, so it must return immediately.
 class FrameClient {
  public:
   FrameClient() = default;
@@ -37,7 +37,7 @@ class FrameClient {
   virtual void on_frame(std::shared_ptr<const std::string> frame) = 0;
 };
 
-/// Gets reads; likewise.
+/// Same, but receives reads.
 class ReadClient {
  public:
   ReadClient() = default;
@@ -47,17 +47,17 @@ class ReadClient {
   virtual void on_reads(std::shared_ptr<const ReadLines> reads) = 0;
 };
 
-/// An outlet and a member of a live world. Nothing is put into words while nobody listens.
+/// An outlet and a member of a live world. Nothing is formatted while there are no clients.
 class LiveFeed final : public ReadListener, public LiveMember {
  public:
   /// `start`: UTC at the simulated time 0, since 1970.
   explicit LiveFeed(Time start) : start_(start) {}
 
-  // What frames tell besides; before the world runs.
+  // Further content of frames; to be called before the world runs.
   void add(std::shared_ptr<const LiveEstimates> estimates) { estimates_ = std::move(estimates); }
   void add(std::unique_ptr<LaserView> lasers) { lasers_ = std::move(lasers); }
 
-  // From any thread; a client that is no more is forgotten.
+  // Callable from any thread; a client that no longer exists is dropped.
   void add(std::weak_ptr<FrameClient> client);
   void add(std::weak_ptr<ReadClient> client);
   [[nodiscard]] std::int64_t reads() const { return count_; }
@@ -67,12 +67,12 @@ class LiveFeed final : public ReadListener, public LiveMember {
   void on_tasks(LiveWorld& world) override;
 
  private:
-  /// A tag's last read by an antenna, and how many there were.
+  /// A tag's last read by an antenna, and how often it was read.
   struct LastRead {
     TagRead read;
     int count = 0;
   };
-  /// What a frame says of how the world goes on.
+  /// Clock state of the world in a frame.
   struct Going {
     Time now;
     bool is_paused = false;
@@ -90,15 +90,15 @@ class LiveFeed final : public ReadListener, public LiveMember {
   void tell_frame(const LiveWorld& world);
   std::string frame_of(const LiveWorld& world, const Going& going, bool is_new);
 
-  std::mutex lock_;  ///< Of the clients.
+  std::mutex lock_;  ///< Guards the clients.
   std::vector<std::weak_ptr<FrameClient>> frame_clients_;
   std::vector<std::weak_ptr<ReadClient>> read_clients_;
   std::atomic<bool> has_frame_clients_{false};
-  std::atomic<bool> has_new_client_{false};  ///< Of frames: it knows nothing yet.
+  std::atomic<bool> has_new_client_{false};  ///< Of frames: it needs a complete one.
   std::atomic<bool> has_read_clients_{false};
   std::atomic<std::int64_t> count_{0};
 
-  // Of the thread that simulates.
+  // Used by the simulation thread only.
   Time start_;
   AntennaPorts ports_;
   std::vector<TagRead> fresh_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A live world and what is found in it as JSON: docs/live.md and openapi.json say what is in it.
+/// A live world and tag estimates as JSON; docs/live.md and openapi.json describe the contents.
 #pragma once
 
 #include <vector>
@@ -14,9 +14,9 @@ namespace tagfield::http {
 Json antennas_json(const LiveWorld& world);
 Json tags_json(const LiveWorld& world);
 
-/// [tag, x, y, z, [xx, xy, yy]] of each that is located, [tag, null] of the others.
+/// [tag, x, y, z, [xx, xy, yy]] for each located tag, [tag, null] for the others.
 Json estimate_rows(const std::vector<LiveEstimate>& estimates);
-/// All that is known of them.
+/// All estimates in full.
 Json estimates_json(const LiveEstimates& estimates);
 
 }  // namespace tagfield::http

@@ -19,10 +19,10 @@ namespace tagfield::http {
 namespace {
 
 constexpr std::size_t kMostReads = 200'000;
-constexpr std::size_t kMostPoses = 100'000;  ///< Of an antenna or robot.
+constexpr std::size_t kMostPoses = 100'000;  ///< Per antenna or robot.
 
-/// Short numbers: a tenth of a millimetre, a millisecond, a hundredth of a decibel are enough to
-/// look at.
+/// Short numbers: a tenth of a millimetre, a millisecond, a hundredth of a decibel are enough for
+/// display.
 double to_decimals(double value, double unit) { return std::round(value * unit) / unit; }
 Json short_point(const Eigen::Vector3d& p) {
   return {to_decimals(p.x(), 1e4), to_decimals(p.y(), 1e4), to_decimals(p.z(), 1e4)};
@@ -57,7 +57,7 @@ Json places_json(const std::vector<TagPosition>& places) {
   return {{"t", std::move(times)}, {"p", std::move(all)}};
 }
 
-/// Numbers of names in the order in which they are first asked for.
+/// Indices of names in the order in which they are first requested.
 class Numbers {
  public:
   std::size_t of(const std::string& name) {
@@ -68,7 +68,7 @@ class Numbers {
   std::map<std::string, std::size_t> numbers_;
 };
 
-/// What scene.json does not know of: antennas as the run's tables have them.
+/// Antennas missing in scene.json, as in the run's tables.
 Json plain_antenna(const AntennaTrack& track) {
   const TagRead* const read = track.reads.empty() ? nullptr : track.reads.front();
   return {{"name", track.antenna},
@@ -98,13 +98,13 @@ Json antennas_of(const RunFiles& run, const Json& scene) {
   return all;
 }
 
-/// Where each tag is at first: truly, where that is known, or else as it was estimated.
+/// Each tag's initial position: the true one if known, else the estimate.
 Json tags_of(const RunFiles& run, Numbers& numbers) {
   Json all = Json::array();
   for (const TagOutcome* outcome : first_outcomes(run.summary)) {
     const std::string& id = outcome->estimate.tag;
-    const auto places = run.true_places.find(id);
-    const bool has_place = places != run.true_places.end() && !places->second.empty();
+    const auto places = run.true_positions.find(id);
+    const bool has_place = places != run.true_positions.end() && !places->second.empty();
     const auto place =
         has_place ? std::optional(places->second.front().p_WT) : known_place(*outcome);
     if (!place) continue;
@@ -124,7 +124,7 @@ Json reads_of(const RunFiles& run, Numbers& tags, std::size_t known_tags, Number
   for (std::size_t i = 0; i < run.reads.size(); i += every) {
     const TagRead& read = run.reads[i];
     const std::size_t tag = tags.of(read.tag);
-    if (tag >= known_tags) continue;  // nobody knows where it is
+    if (tag >= known_tags) continue;  // its position is unknown
     json["t"].push_back(short_time(read.stamp));
     json["tag"].push_back(tag);
     json["antenna"].push_back(antennas.of(read.antenna));
@@ -164,8 +164,8 @@ Json robots_json(const std::vector<AntennaPose>& poses) {
   return robots;
 }
 
-/// Rows from the origin's corner on, as one list of how many cells are of one kind and which that
-/// is: 0 free, 1 occupied, 2 neither.
+/// Run-length encoding of the rows from the origin's corner on: number of cells and their state,
+/// which is 0 free, 1 occupied, 2 unknown.
 Json map_json(const OccupancyGrid& grid) {
   Json runs = Json::array();
   for (std::size_t i = 0; i < grid.cells.size();) {
@@ -185,7 +185,7 @@ Json map_json(const OccupancyGrid& grid) {
           {"runs", std::move(runs)}};
 }
 
-/// What of `text` is between the first `begin` and the next `end`; "" where they are not there.
+/// The part of `text` between the first `begin` and the next `end`; "" if they are missing.
 std::string_view between(std::string_view text, std::string_view begin, std::string_view end) {
   const std::size_t from = text.find(begin);
   if (from == std::string_view::npos) return {};
@@ -201,7 +201,7 @@ std::optional<RunView> run_view(const RunFiles& run, const std::string& folder) 
   if (hash.empty() || script.empty()) return std::nullopt;
   std::string html = "<div id=\"tagfield-view\"></div>\n";
   html += "<script type=\"application/json\" id=\"tagfield-run\">";
-  // No text of the run may end the element.
+  // Text in the run must not close the element.
   for (const char c : run_json(run, read_surroundings(folder))) {
     if (c == '<') {
       html += "\\u003c";
@@ -275,7 +275,7 @@ std::string run_json(const RunFiles& run, const Surroundings& around) {
   json["duration"] = first <= last ? Json{short_time(first), short_time(last)} : Json{0.0, 0.0};
   json["robot_poses"] = robots_json(around.robot_poses);
   json["tag_positions"] = Json::object();
-  for (const auto& [tag, places] : run.true_places) {
+  for (const auto& [tag, places] : run.true_positions) {
     if (places.size() > 1) json["tag_positions"][tag] = places_json(places);
   }
   json["reads"] = reads_of(run, tags, json["tags"].size(), antennas);

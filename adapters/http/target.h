@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The address that a request asks for, taken apart.
+/// Parsing of a request's target.
 #pragma once
 
 #include <map>
@@ -23,10 +23,10 @@ struct Target {
   }
 };
 
-/// None where it does not begin with '/' or holds a broken escape, or one of a control character.
+/// None if it does not begin with '/' or has a broken escape or an escaped control character.
 std::optional<Target> parsed_target(std::string_view target);
 
-/// Whether the parts are those of `pattern`, in which "{…}" stands for any one part.
+/// Whether the parts match `pattern`, in which "{…}" stands for any one part.
 bool matches(const Target& target, std::string_view pattern);
 
 }  // namespace tagfield::http

@@ -13,7 +13,7 @@
 namespace tagfield::http {
 namespace {
 
-/// Of a beam's grid: fine enough for its half-power line, small enough for a page.
+/// Resolution of a beam's grid: fine enough for its half-power contour, small enough for a page.
 constexpr int kPolarSteps = 36;
 constexpr int kAzimuthSteps = 24;
 constexpr double kLeastGain_db = -40.0;
@@ -21,7 +21,7 @@ constexpr double kLeastGain_db = -40.0;
 Json mesh_json(const TriangleMesh& mesh) {
   Json vertices = Json::array();
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    // A tenth of a millimetre is enough to look at.
+    // A tenth of a millimetre is enough for display.
     for (int i = 0; i < 3; ++i) vertices.push_back(std::round(vertex[i] * 1e4) / 1e4);
   }
   Json triangles = Json::array();
@@ -31,7 +31,7 @@ Json mesh_json(const TriangleMesh& mesh) {
   return {{"vertices", std::move(vertices)}, {"triangles", std::move(triangles)}};
 }
 
-/// Each mesh once, however many show it.
+/// Each mesh once, however often it is used.
 class Meshes {
  public:
   std::size_t number_of(const MeshPtr& mesh) {
@@ -59,17 +59,17 @@ void add_shape(const Shape& shape, Meshes& meshes, Json& solid) {
   if (const auto* mesh = std::get_if<MeshPtr>(&shape)) solid["mesh"] = meshes.number_of(*mesh);
 }
 
-/// What each collision is made of; "" where that can't be said.
+/// Material of each collision; "" if unknown.
 std::vector<std::string> materials_of(const Scene& scene, const Scenario& scenario) {
   std::vector<std::string> names(scene.collisions.size());
-  Diagnostics unheard;  // Loading the world has warned of it where it matters.
+  Diagnostics unheard;  // Already reported on loading, if relevant.
   try {
     const RadioWorld world = radio_world(scene, scenario.materials, unheard);
     for (std::size_t i = 0; i < names.size(); ++i) {
       names[i] = world.materials[world.material_of[i]].name;
     }
   } catch (const Error&) {
-    // A world that waves can't be traced in can be looked at all the same.
+    // A world that is unsuitable for wave propagation can still be displayed.
     return names;
   }
   return names;

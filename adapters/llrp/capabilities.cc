@@ -11,11 +11,11 @@
 namespace tagfield::llrp {
 namespace {
 
-// As a common reader of four ports, so that clients make use of the vendor's extension.
+// That of a common four-port reader, so that clients use the vendor's extension.
 constexpr std::uint32_t kModel = 2001002;
 constexpr const char* kFirmware = "tagfield";
 constexpr double kPaperPower_dbm = 30.0;
-// Codes of §16.2.4: the United States and the FCC, Germany and ETSI, nobody.
+// Codes of §16.2.4: the United States and the FCC, Germany and ETSI, unspecified.
 constexpr std::uint16_t kUnitedStates = 840;
 constexpr std::uint16_t kGermany = 276;
 constexpr std::uint16_t kFcc = 1;
@@ -55,7 +55,7 @@ void write_device(const Ports& ports, ByteWriter& writer) {
 
 void write_llrp(ByteWriter& writer) {
   writer.parameter(142, [&] {
-    writer.u8(0x48);  // tells that buffers fill, and holds reports until a client asks
+    writer.u8(0x48);  // reports buffer fill levels, and holds reports on request
     writer.u8(7);
     writer.u16(0);
     writer.u32(32);
@@ -156,7 +156,7 @@ Ports ports_of(const LiveWorld& world, const std::string& reader, const Ports& b
     if (antenna.spec.parameters.reader != reader) continue;
     const auto place = static_cast<std::size_t>(antenna.port - 1);
     if (place >= ports.antennas.size()) {
-      // One that had come and gone between two looks was never there for its clients.
+      // An antenna that was added and removed between two checks never existed for clients.
       LiveAntenna none = antenna;
       none.spec.parameters.name.clear();
       none.is_faulty = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a reader of a live world tells a client that it is and can do.
+/// Capabilities that a reader of a live world reports to a client.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,22 @@ namespace tagfield::llrp {
 /// A reader's ports: antenna ID i is `antennas[i - 1]`.
 struct Ports {
   std::vector<LiveAntenna> antennas;
-  std::vector<bool> is_empty;  ///< Of each port: its antenna was taken away, and counts as faulty.
+  std::vector<bool> is_empty;  ///< Per port: its antenna was removed, which counts as a fault.
 
-  /// 1 or more; 0 where it is none of the reader's.
+  /// 1 or more; 0 if it is not one of the reader's.
   [[nodiscard]] std::uint16_t id_of(const std::string& antenna) const;
 };
-/// As the world is now, `before` being what its ports were.
+/// The ports in the current world, given the previous ones in `before`.
 Ports ports_of(const LiveWorld& world, const std::string& reader, const Ports& before);
 
-/// What its antennas can send: of the paper's model 30 dBm alone.
+/// Transmit powers that its antennas can be set to; with the paper's model 30 dBm only.
 std::vector<double> powers_of(const Ports& ports);
-/// Its channels in rising order [Hz], index 1 first; and whether it hops over them.
+/// Its channels in ascending order [Hz], index 1 first; and whether it hops between them.
 std::vector<double> channels_of(const Ports& ports);
 bool hops(const Ports& ports);
 
-/// GET_READER_CAPABILITIES' `requested` (§14.1.1): 0 all, 1 device, 2 LLRP, 3 regulation, 4 Gen2.
+/// Writes the response to GET_READER_CAPABILITIES; `requested` (§14.1.1): 0 all, 1 device, 2 LLRP,
+/// 3 regulation, 4 Gen2.
 void write_capabilities(const Ports& ports, std::uint8_t requested, ByteWriter& writer);
 
 }  // namespace tagfield::llrp

@@ -11,15 +11,15 @@
 namespace tagfield::llrp {
 namespace {
 
-/// What a reader keeps for a client that is away.
+/// Reports kept for a disconnected client.
 constexpr std::size_t kMostPending = 10'000;
-/// Of TagReportData in one message.
+/// TagReportData per message.
 constexpr std::size_t kMostReportBytes = 32'000;
 constexpr std::size_t kMostRoSpecs = 32;
 constexpr std::size_t kMostAccessSpecs = 1024;
 constexpr double kFullLevel = 0.8;
 
-// Messages (§16.3), and what their answers are.
+// Messages (§16.3) and their responses.
 constexpr std::uint16_t kCloseConnection = 14;
 constexpr std::uint16_t kGetReport = 60;
 constexpr std::uint16_t kReportMessage = 61;
@@ -29,14 +29,14 @@ constexpr std::uint16_t kEnableEvents = 64;
 constexpr std::uint16_t kKeepaliveAck = 72;
 constexpr std::uint16_t kErrorMessage = 100;
 constexpr std::uint16_t kCustomMessage = 1023;
-constexpr std::uint16_t kToAnswer = 10;  ///< An answer's type is its request's and this.
+constexpr std::uint16_t kToAnswer = 10;  ///< Offset from a request's type to its response's.
 
 // Kinds of events (§13.1.6.1).
 constexpr std::uint16_t kRoSpecEvents = 2;
 constexpr std::uint16_t kBufferEvents = 3;
 constexpr std::uint16_t kAiSpecEvents = 6;
 constexpr std::uint16_t kAntennaEvents = 8;
-constexpr std::uint16_t kAlways = 0xffff;  ///< Of the connection.
+constexpr std::uint16_t kAlways = 0xffff;  ///< Events of the connection.
 
 void write_status(Status status, const std::string& text, ByteWriter& writer) {
   writer.parameter(287, [&] {
@@ -81,7 +81,8 @@ void LlrpReader::send(std::uint16_t type, std::uint32_t id, const ByteWriter& bo
   }
 }
 
-/// Before all that the request has brought about: simple clients take what comes next for it.
+/// Sent before all messages that the request caused: simple clients take the next message for the
+/// response.
 void LlrpReader::answer(std::uint16_t type, std::uint32_t id, const ByteWriter& body) {
   const auto brought_about = std::exchange(after_answer_, std::nullopt);
   send(type, id, body);
@@ -178,7 +179,7 @@ void LlrpReader::capabilities(LiveWorld& /*world*/, const Message& message, Byte
   write_capabilities(ports_, requested, out);
 }
 
-/// Impinj's: extensions are switched on, as they always are.
+/// Impinj's message that enables extensions, which are always enabled.
 void LlrpReader::on_custom(LiveWorld& /*world*/, const Message& message) {
   ByteReader reader(message.body);
   if (reader.u32() != kImpinj || reader.u8() != 21) {
@@ -204,13 +205,13 @@ void LlrpReader::set_config(LiveWorld& world, const Message& message, ByteWriter
   write_ok(out);
 }
 
-void LlrpReader::tell_warnings(const std::vector<std::string>& warnings) {
+void LlrpReader::report_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
     if (warned_.insert(warning).second) warn_(fmt::format("reader '{}': {}", name_, warning));
   }
 }
 
-/// Throws Fault where the AISpec can't be carried out.
+/// Throws Fault if the AISpec can't be executed.
 void LlrpReader::check_duty(const LiveWorld& /*world*/, const AiSpec& spec) {
   const ReaderDuty duty = duty_of(configuration_, ports_, spec);
   std::vector<std::string> warnings;
@@ -221,7 +222,7 @@ void LlrpReader::check_duty(const LiveWorld& /*world*/, const AiSpec& spec) {
   } catch (const Error& error) {
     throw Fault(Status::kFieldError, error.what());
   }
-  tell_warnings(warnings);
+  report_warnings(warnings);
 }
 
 void LlrpReader::add_ro_spec(LiveWorld& world, const Message& message, ByteWriter& out) {
@@ -314,7 +315,8 @@ void LlrpReader::disable(LiveWorld& world, RoEntry& entry) {
 void LlrpReader::start(LiveWorld& world, RoEntry& entry) {
   if (entry.state == State::kActive) return;
   if (running_) {
-    // One of no lower rank goes on; one of lower rank gives way.
+    // A running ROSpec of the same or higher priority continues; one of lower priority is
+    // preempted.
     if (ro_spec(running_->id).spec.priority <= entry.spec.priority) return;
     end(world, entry.spec.id);
   }
@@ -349,10 +351,10 @@ void LlrpReader::begin_ai_spec(LiveWorld& world) {
   running.filters = setting_of(configuration_, spec.settings, spec.antennas.front())
                         .filters.value_or(std::vector<TagFilter>{});
   try {
-    tell_warnings(world.set_duty(name_, duty_of(configuration_, ports_, spec)));
+    report_warnings(world.set_duty(name_, duty_of(configuration_, ports_, spec)));
   } catch (const std::exception& error) {
-    // Antennas may have been taken out of the world since it was added.
-    tell_warnings({fmt::format("ROSpec {} can't continue: {}", running.id, error.what())});
+    // Antennas may have been removed from the world since it was added.
+    report_warnings({fmt::format("ROSpec {} can't continue: {}", running.id, error.what())});
     be_silent(world);
   }
 }
@@ -361,14 +363,14 @@ void LlrpReader::be_silent(LiveWorld& world) {
   try {
     world.set_duty(name_, {});
   } catch (const Error&) {
-    // All of its antennas have been taken out of the world: it is silent.
+    // All of its antennas have been removed from the world: it is silent.
     return;
   }
 }
 
 void LlrpReader::end_ai_spec(LiveWorld& world) {
   Running& running = *running_;
-  // What its antennas have read until now comes with it.
+  // Includes what its antennas have read so far.
   be_silent(world);
   if (running.gathering.spec().trigger == 1) report_gathered(running);
   const std::uint32_t id = running.id;
@@ -442,7 +444,7 @@ void LlrpReader::watch_antennas(const LiveWorld& world) {
   }
 }
 
-/// A client that falls behind is told so, and what it has lost.
+/// Notifies a client that falls behind, and states its losses.
 void LlrpReader::tell_line_state() {
   if (!line_) return;
   const double level = line_->level();
@@ -454,7 +456,7 @@ void LlrpReader::tell_line_state() {
   has_warned_of_buffer_ = level > kFullLevel;
   dropped_ += line_->take_dropped();
   if (dropped_ == 0) return;
-  tell_warnings({fmt::format("a client is too slow and loses reports")});
+  report_warnings({fmt::format("a client is too slow and loses reports")});
   dropped_ = 0;
   tell_event(kBufferEvents, [](ByteWriter& out) { out.parameter(251, [] {}); });
 }
@@ -486,7 +488,7 @@ void LlrpReader::on_step(LiveWorld& world, Time now) {
   }
 }
 
-/// The ROSpec that a read of this stamp belongs to; null for none.
+/// The ROSpec that a read with this stamp belongs to, or null.
 LlrpReader::Running* LlrpReader::running_at(Time stamp) {
   if (running_ && stamp >= running_->began) return &*running_;
   return ended_ ? &*ended_ : nullptr;
@@ -519,7 +521,7 @@ void LlrpReader::on_read(const TagRead& read) {
   Running* const running = running_at(read.stamp);
   MemoryBanks& tag = tags_->of(read.tag);
   if (running == nullptr || tag.is_killed() || !is_selected(running->filters, tag)) return;
-  // It ended within a step: the reader is silent from then on.
+  // The ROSpec ended within a step: the reader is silent from then on.
   if (read.stamp >= running->ends || is_ai_spec_over(*running, read.stamp)) return;
   if (running->seen.insert(read.tag).second) running->last_new = read.stamp;
   TagReport report = report_of(read, *running, tag);
@@ -530,7 +532,7 @@ void LlrpReader::on_read(const TagRead& read) {
   if (is_late || running->gathering.is_full()) report_gathered(*running);
 }
 
-/// What AccessSpecs want of the tag is done now that it has been singulated.
+/// Executes the AccessSpecs for the tag now that it has been singulated.
 void LlrpReader::operate(const TagRead& read, MemoryBanks& tag, TagReport& report) {
   for (auto entry = access_specs_.begin(); entry != access_specs_.end(); ++entry) {
     auto& [spec, is_enabled, done] = entry->second;
@@ -546,7 +548,7 @@ void LlrpReader::operate(const TagRead& read, MemoryBanks& tag, TagReport& repor
     report.op_results = results.written();
     if (tag.is_killed()) killed_.push_back(read.tag);
     if (spec.operations > 0 && ++done >= spec.operations) access_specs_.erase(entry);
-    return;  // One AccessSpec a singulation.
+    return;  // One AccessSpec per singulation.
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One reader of a live world as LLRP 1.0.1 has it: ROSpecs, AccessSpecs, reports, events. It knows
-/// no sockets; docs/llrp.md says what of the protocol it speaks.
+/// One reader of a live world in LLRP 1.0.1: ROSpecs, AccessSpecs, reports, events. Independent of
+/// sockets; docs/llrp.md lists the supported parts of the protocol.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@
 
 namespace tagfield::llrp {
 
-/// Where a reader's messages to its client go.
+/// Outgoing connection from a reader to its client.
 class ClientLine {
  public:
   ClientLine() = default;
@@ -31,29 +31,29 @@ class ClientLine {
   ClientLine(const ClientLine&) = delete;
   ClientLine& operator=(const ClientLine&) = delete;
 
-  /// Returns at once. Where too much waits already, the oldest reports are dropped.
+  /// Returns immediately. If the buffer is full, the oldest reports are dropped.
   virtual void send(const Bytes& message, bool is_report) = 0;
-  /// How full the buffer is, 0 to 1.
+  /// Fill level of the buffer, 0 to 1.
   virtual double level() = 0;
-  /// Reports that were dropped since the last call.
+  /// Number of reports dropped since the last call.
   virtual std::int64_t take_dropped() = 0;
 };
 
-/// For the thread that runs the world, all of it.
+/// To be used only on the thread that runs the world.
 class LlrpReader {
  public:
-  /// `name`: of the world's reader. `tags` are shared with its other readers. `epoch_us`: UTC at
-  /// the simulated time 0. `warn` is told what clients ask for without effect.
+  /// `name`: that of the world's reader. `tags` are shared with the world's other readers.
+  /// `epoch_us`: UTC at the simulated time 0. `warn` receives client requests that have no effect.
   LlrpReader(std::string name, std::shared_ptr<TagStore> tags, std::uint64_t epoch_us,
              std::function<void(const std::string&)> warn);
 
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// A client is there; it is told so.
+  /// Accepts a client and notifies it.
   void connect(LiveWorld& world, std::shared_ptr<ClientLine> line);
-  /// The client on this line is gone: its ROSpecs go on, and what is reported waits.
+  /// Removes the client on this line: its ROSpecs continue, and reports are kept.
   void disconnect(const ClientLine& line);
-  /// A message of the client's is answered. False where the connection ends by it.
+  /// Answers a message from the client. False if the connection is to be closed.
   bool on_message(LiveWorld& world, const Message& message);
   void on_read(const TagRead& read);
   void on_step(LiveWorld& world, Time now);
@@ -63,14 +63,14 @@ class LlrpReader {
   struct RoEntry {
     RoSpec spec;
     State state = State::kDisabled;
-    std::optional<Time> next_start;  ///< By its period.
+    std::optional<Time> next_start;  ///< According to its period.
   };
   struct AccessEntry {
     AccessSpec spec;
     bool is_enabled = false;
     std::uint16_t done = 0;
   };
-  /// The ROSpec that is active.
+  /// The active ROSpec.
   struct Running {
     std::uint32_t id = 0;
     Time began;
@@ -107,7 +107,7 @@ class LlrpReader {
   void end_ai_spec(LiveWorld& world);
   void start_those_due(LiveWorld& world, Time now);
   void check_duty(const LiveWorld& world, const AiSpec& spec);
-  void tell_warnings(const std::vector<std::string>& warnings);
+  void report_warnings(const std::vector<std::string>& warnings);
   void watch_antennas(const LiveWorld& world);
   void tell_line_state();
 
@@ -130,9 +130,9 @@ class LlrpReader {
   std::set<std::string> warned_;
 
   std::shared_ptr<ClientLine> line_;
-  bool is_holding_ = false;  ///< Reports, until the client asks.
+  bool is_holding_ = false;  ///< Holds reports until the client requests them.
   std::uint32_t next_id_ = 1;
-  /// What a request has brought about, to be sent after its answer; none between requests.
+  /// Messages that a request caused, to be sent after its response; none between requests.
   std::optional<std::vector<std::pair<Bytes, bool>>> after_answer_;
   Time now_{};
   std::optional<Time> kept_alive_;
@@ -142,13 +142,14 @@ class LlrpReader {
   std::map<std::uint32_t, RoEntry> ro_specs_;
   std::map<std::uint32_t, AccessEntry> access_specs_;
   std::optional<Running> running_;
-  /// The one before: its last reads are told after its end where other readers' may come before.
+  /// The previous one: its last reads arrive after its end if those of other readers may still come
+  /// first.
   std::optional<Running> ended_;
   Ports ports_;  ///< As of the last step.
   std::map<std::string, bool> faulty_;
-  std::deque<Bytes> pending_;        ///< TagReportData that wait for a client.
-  std::int64_t dropped_ = 0;         ///< Of those.
-  std::vector<std::string> killed_;  ///< Tags to be taken out of the world.
+  std::deque<Bytes> pending_;        ///< TagReportData waiting for a client.
+  std::int64_t dropped_ = 0;         ///< Number of these that were dropped.
+  std::vector<std::string> killed_;  ///< Tags to be removed from the world.
 };
 
 }  // namespace tagfield::llrp

@@ -27,27 +27,28 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
-/// What may wait for a client.
+/// Bytes queued for a client.
 constexpr std::size_t kMostWaiting = std::size_t{4} << 20U;
-/// For the rest of a message that has begun, and for a client to take what was written.
+/// Time limit for the rest of a message, and for a client to receive what was written.
 constexpr std::chrono::seconds kPatience(30);
 constexpr std::chrono::milliseconds kRest(100);
-/// Before and after an answer or an event: some clients take what arrives together for one message.
+/// Before and after a response or an event: some clients treat data that arrives together as one
+/// message.
 constexpr std::chrono::milliseconds kGap(2);
 
-/// Reader, server and socket: who is connected to what.
+/// Reader, acceptor and connection state of one port.
 struct Endpoint {
   Endpoint(LiveWorld& live, std::unique_ptr<LlrpReader> made, asio::io_context& io)
       : world(live), reader(std::move(made)), acceptor(io), rest(io) {}
 
   LiveWorld& world;
-  std::unique_ptr<LlrpReader> reader;  ///< Of the thread that runs the world.
+  std::unique_ptr<LlrpReader> reader;  ///< Used by the thread that runs the world.
   tcp::acceptor acceptor;
   asio::steady_timer rest;
-  bool has_client = false;  ///< Of the network's thread.
+  bool has_client = false;  ///< Used by the network thread.
 };
 
-/// A client's connection. The network's thread reads and writes; the world's thread sends.
+/// A client's connection. The network thread reads and writes; the world's thread sends.
 class ClientSession final : public ClientLine, public std::enable_shared_from_this<ClientSession> {
  public:
   ClientSession(std::shared_ptr<Endpoint> endpoint, asio::io_context& io, tcp::socket socket)
@@ -87,7 +88,7 @@ class ClientSession final : public ClientLine, public std::enable_shared_from_th
     bool is_report;
   };
 
-  /// Under the lock.
+  /// To be called with the lock held.
   void drop_oldest() {
     for (auto entry = queue_.begin(); entry != queue_.end() && waiting_ > kMostWaiting;) {
       if (!entry->is_report) {
@@ -127,7 +128,7 @@ class ClientSession final : public ClientLine, public std::enable_shared_from_th
                      });
   }
 
-  /// One message at a time: the next is read when this one is done.
+  /// Messages are processed one at a time: the next is read when this one is done.
   void hand_over() {
     endpoint_->world.post(
         [self = shared_from_this(), message = message_of(message_)](LiveWorld& world) {
@@ -140,7 +141,7 @@ class ClientSession final : public ClientLine, public std::enable_shared_from_th
         });
   }
 
-  /// What is no LLRP ends the connection, with a word.
+  /// Closes the connection after data that is not LLRP, with an error message.
   void refuse(const Fault& fault) {
     ByteWriter body;
     body.parameter(287, [&] {
@@ -224,19 +225,19 @@ class ClientSession final : public ClientLine, public std::enable_shared_from_th
   std::array<std::uint8_t, kHeaderSize> header_{};
   Bytes message_;
   Bytes outgoing_;
-  bool is_report_ = false;  ///< That is outgoing.
+  bool is_report_ = false;  ///< Of the message being sent.
   bool is_writing_ = false;
   bool closes_when_sent_ = false;
   bool has_ended_ = false;
 
-  std::mutex lock_;  ///< Of the following, which the world's thread fills.
+  std::mutex lock_;  ///< Guards the following, which the world's thread fills.
   std::deque<Outgoing> queue_;
   std::size_t waiting_ = 0;  ///< Bytes in it.
   std::int64_t dropped_ = 0;
   bool is_woken_ = false;
 };
 
-/// "A client is connected already", and the end of it.
+/// Refuses a connection: another client is already connected.
 void turn_away(tcp::socket socket, std::uint64_t utc_us) {
   ByteWriter body;
   body.parameter(246, [&] {
@@ -249,7 +250,7 @@ void turn_away(tcp::socket socket, std::uint64_t utc_us) {
                     [kept, message](boost::system::error_code, std::size_t) {});
 }
 
-/// Of two tags with one EPC a client could not tell which is which.
+/// A client could not distinguish two tags with the same EPC.
 void require_different_epcs(const Scenario& scenario) {
   std::map<Words, std::string> seen;
   for (const TagSpec& tag : scenario.tags) {
@@ -267,7 +268,7 @@ class LlrpServer::Impl {
   explicit Impl(const LlrpOptions& asked) : options_(asked) {}
   ~Impl() {
     close();
-    // A reader keeps its client's connection, which keeps the reader.
+    // Breaks the reference cycle between a reader and its client's connection.
     for (const auto& endpoint : endpoints_) endpoint->reader.reset();
   }
   Impl(const Impl&) = delete;
@@ -338,7 +339,7 @@ class LlrpServer::Impl {
         });
   }
 
-  /// The machine has no more files: it waits for some.
+  /// Pauses when the machine is out of file descriptors.
   void rest(const std::shared_ptr<Endpoint>& endpoint) {
     endpoint->rest.expires_after(kRest);
     endpoint->rest.async_wait([this, endpoint](boost::system::error_code) { accept(endpoint); });

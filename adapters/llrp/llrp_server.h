@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The readers of a live world on TCP ports, an LLRP reader each.
+/// The readers of a live world on TCP ports, one LLRP reader per port.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ namespace tagfield::llrp {
 
 struct LlrpOptions {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 5084;  ///< Of the first reader; the next has the next. 0: any that are free.
+  std::uint16_t port = 5084;  ///< Of the first reader; the others follow. 0 for any free ones.
   std::int64_t epoch_us = 0;  ///< UTC at the simulated time 0 [µs since 1970]; 0 or more.
-  /// Told what clients ask for without effect, and what they lose: one line each.
+  /// Receives client requests without effect, and client losses, one line each.
   std::function<void(const std::string&)> warn = [](const std::string&) {};
 };
 
@@ -29,20 +29,20 @@ struct LlrpAddress {
   std::uint16_t port = 0;
 };
 
-/// Attach it to the world's outlets and members. Sockets are served in a thread of its own. A
-/// reader has one client at a time, as readers do. What comes in is bounded in size and time; of a
-/// client that falls behind the oldest reports are dropped, with a count.
+/// Attach it to the world's outlets and members. Sockets are served on a separate thread. As with
+/// real readers, each accepts one client at a time. Input is limited in size and time; if a client
+/// falls behind, the oldest reports are dropped and counted.
 class LlrpServer final : public ReadListener, public LiveMember {
  public:
   explicit LlrpServer(const LlrpOptions& options);
   /// Ends all connections.
   ~LlrpServer() override;
 
-  /// Listens, a port for each of the world's readers; `world` must outlive this. Throws Error where
-  /// a port can't be listened on, or two tags would have the same EPC.
+  /// Listens on one port per reader of the world; `world` must outlive this. Throws Error if a port
+  /// can't be opened, or if two tags would have the same EPC.
   void open(LiveWorld& world);
   [[nodiscard]] std::vector<LlrpAddress> addresses() const;
-  /// Ends all connections; before the world is gone.
+  /// Ends all connections; to be called before the world is destroyed.
   void close();
 
   void on_read(const TagRead& read) override;

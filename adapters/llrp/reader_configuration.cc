@@ -15,9 +15,9 @@ namespace tagfield::llrp {
 namespace {
 
 constexpr std::uint16_t kLastEvent = 8;
-constexpr std::uint16_t kReaderChooses = 1000;  ///< The RF mode.
+constexpr std::uint16_t kReaderChooses = 1000;  ///< RF mode.
 constexpr std::uint16_t kUsualTags = 16;
-/// Of search modes, Impinj's.
+/// Impinj's search modes.
 constexpr std::uint16_t kSingleTarget = 1;
 constexpr std::uint16_t kDualTarget = 2;
 constexpr std::uint16_t kFocus = 3;
@@ -60,7 +60,7 @@ void read_parameter(const Parameter& parameter, ReaderConfiguration& told) {
       told.holds_reports = (content.u8() & 0x80U) != 0;
       return;
     case kCustomParameter:
-      return;  // Of vendors' settings none changes what is simulated.
+      return;  // Vendor settings have no effect in simulation.
     default:
       throw Fault(Status::kUnsupportedParameter,
                   fmt::format("parameter {} can't be set here", parameter.type));
@@ -133,7 +133,7 @@ void write_keepalive(Duration keepalive, ByteWriter& out) {
   });
 }
 
-/// All where 0 is among them.
+/// The AISpec's antennas; all if 0 is among them.
 std::vector<std::uint16_t> antennas_of(const AiSpec& spec, const Ports& ports) {
   if (std::find(spec.antennas.begin(), spec.antennas.end(), 0) == spec.antennas.end()) {
     return spec.antennas;
@@ -145,7 +145,7 @@ std::vector<std::uint16_t> antennas_of(const AiSpec& spec, const Ports& ports) {
   return all;
 }
 
-/// Q for so many tags: as many slots.
+/// Q for this many tags: at least as many slots.
 int q_for(std::uint16_t tags) {
   int q = 0;
   while (q < 15 && (1U << static_cast<unsigned>(q)) < tags) ++q;
@@ -158,7 +158,7 @@ std::optional<double> power_at(std::optional<std::uint16_t> index, const Ports& 
   if (*index == 0 || *index > powers.size()) {
     throw Fault(Status::kFieldError, fmt::format("there is no transmit power {}", *index));
   }
-  // Of the paper's model it is the only one, and changes nothing.
+  // In the paper's model it is the only one, and has no effect.
   return powers.size() > 1 ? std::optional(powers[*index - 1U]) : std::nullopt;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a client sets a reader to, as opposed to what it has it do.
+/// Reader configuration set by clients, as opposed to the operations that they start.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,30 @@
 
 namespace tagfield::llrp {
 
-/// As SET_READER_CONFIG sets it; what it begins with is as after a reset.
+/// As set by SET_READER_CONFIG; default values are those after a reset.
 struct ReaderConfiguration {
   AntennaSettings antennas;
   ReportSpec report;
-  std::set<std::uint16_t> events;  ///< Kinds of §13.1.6.1 that are told.
+  std::set<std::uint16_t> events;  ///< Kinds of §13.1.6.1 that are reported.
   Duration keepalive{};            ///< 0 for none.
-  bool holds_reports = false;      ///< Of a time without a client, until the next one asks.
+  bool holds_reports = false;      ///< After a reconnection, until the client requests them.
   std::uint8_t access_report = 0;
 };
 
-/// After a SET_READER_CONFIG. Throws Fault where something in it can't be set.
+/// The configuration after a SET_READER_CONFIG. Throws Fault if something in it can't be set.
 ReaderConfiguration configured(const ReaderConfiguration& before, ByteReader message);
 
-/// What a GET_READER_CONFIG asks for, of the reader `name`. Throws Fault.
+/// Response to a GET_READER_CONFIG for the reader `name`. Throws Fault.
 void write_configuration(const ReaderConfiguration& configuration, const std::string& name,
                          const Ports& ports, ByteReader message, ByteWriter& out);
 
-/// An antenna's settings: those of `over` above those of the configuration, its own above those of
-/// all.
+/// An antenna's settings: `over` takes precedence over the configuration, and settings of a single
+/// antenna over those of all.
 AntennaSetting setting_of(const ReaderConfiguration& configuration, const AntennaSettings& over,
                           std::uint16_t antenna);
 
-/// What the world's reader is to do for an AISpec: its antennas, their powers, and of the first of
-/// them session, Q, RF mode and channels. Throws Fault where a table has no such entry.
+/// The duty of the world's reader for an AISpec: its antennas, their powers, and session, Q, RF
+/// mode and channels of the first of them. Throws Fault if a table has no such entry.
 ReaderDuty duty_of(const ReaderConfiguration& configuration, const Ports& ports,
                    const AiSpec& spec);
 

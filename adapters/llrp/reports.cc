@@ -9,7 +9,7 @@
 namespace tagfield::llrp {
 namespace {
 
-/// More than any reader's buffer holds; sent then, whatever was asked for.
+/// More than any reader's buffer holds; reports are then sent regardless of the trigger.
 constexpr std::size_t kMostGathered = 10'000;
 constexpr double kPhaseSteps = 4096.0;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads as a reader reports them: gathered as the report's specification says, and put on the
-/// wire.
+/// Reports of reads: accumulated as the report specification requires, and encoded.
 #pragma once
 
 #include <cstdint>
@@ -29,30 +28,30 @@ struct TagReport {
   std::uint16_t antenna = 0;
   std::uint16_t channel = 0;
   double peak_rssi_dbm = 0.0;
-  double phase_rad = 0.0;  ///< Of the last read, growing with distance, as TagRead's.
+  double phase_rad = 0.0;  ///< Of the last read, increasing with distance as in TagRead.
   std::optional<double> doppler_hz;
   std::uint64_t first_us = 0;  ///< UTC.
   std::uint64_t last_us = 0;
   std::uint16_t seen = 1;
   std::uint32_t access_spec = 0;
-  Bytes op_results;  ///< Parameters, one after the other.
+  Bytes op_results;  ///< Encoded parameters, one after the other.
 };
 
-/// What `spec` selects of it, and nothing else. The vendor's phase falls with distance, as that of
-/// its readers does: 4096 steps a turn.
+/// Writes only the contents that `spec` selects. The vendor's phase decreases with distance, as
+/// reported by its readers: 4096 steps per cycle.
 void write_report(const TagReport& report, const ReportSpec& spec, ByteWriter& writer);
 
-/// Gathers reads of one ROSpec until they are to be sent.
+/// Accumulates reads of one ROSpec until they are to be sent.
 class ReportGathering {
  public:
   explicit ReportGathering(const ReportSpec& spec) : spec_(spec) {}
 
-  /// Reads that agree in all that is selected and does not accumulate are one report, but for
-  /// those that hold results of operations.
+  /// Reads that agree in all selected fields that don't accumulate are merged into one report,
+  /// except for reads with results of operations.
   void add(const TagReport& report);
-  /// Whether as many as `n` are there.
+  /// Whether there are `n` reports.
   [[nodiscard]] bool is_full() const;
-  /// All, on the wire; nothing is left.
+  /// Removes all reports and returns them encoded.
   std::vector<Bytes> take();
   [[nodiscard]] const ReportSpec& spec() const { return spec_; }
 

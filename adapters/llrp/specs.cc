@@ -24,7 +24,7 @@ void require_no_gpi(bool asks) {
 }
 
 TagFilter filter_of(ByteReader content) {
-  content.u8();  // Truncated replies make no difference here.
+  content.u8();  // Truncation has no effect here.
   const std::vector<Parameter> inner = parameters_of(content);
   require_known(inner, {332, 333, 334});
   if (find(inner, 333)) {
@@ -45,7 +45,7 @@ TagFilter filter_of(ByteReader content) {
   return filter;
 }
 
-/// Impinj's: how it searches, and on which channels.
+/// Impinj's search mode and channels.
 void read_impinj(ByteReader content, AntennaSetting& setting) {
   if (content.u32() != kImpinj) return;
   const std::uint32_t subtype = content.u32();
@@ -72,7 +72,7 @@ void read_inventory_command(ByteReader content, AntennaSetting& setting) {
     } else if (parameter.type == 336) {
       setting.session = value.u8() >> 6U;
       setting.tag_population = value.u16();
-      value.u32();  // The tags' transit time changes nothing by itself.
+      value.u32();  // The transit time has no effect.
       const auto action = find(parameters_of(value), 337);
       if (action && is_state_aware) {
         ByteReader flags = action->content;
@@ -98,7 +98,7 @@ void read_stop(ByteReader content, AiSpec& spec) {
   require_field(spec.observation <= 2, "a tag observation trigger must be from 0 to 2");
   value.u8();
   spec.tags = value.u16();
-  value.u16();  // Attempts: rounds are not told apart.
+  value.u16();  // Attempts: rounds are not distinguished.
   spec.quiet = milliseconds(value.u16());
   spec.timeout = milliseconds(value.u32());
 }

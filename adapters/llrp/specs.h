@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What clients ask a reader for: ROSpecs, AccessSpecs, configuration.
+/// Specifications from clients: ROSpecs, AccessSpecs, configuration.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@
 
 namespace tagfield::llrp {
 
-/// Impinj's private enterprise number, under which this extension is known.
+/// Impinj's private enterprise number, which identifies its extension.
 inline constexpr std::uint32_t kImpinj = 25882;
 
-/// Types of parameters that several sources name (§16.3).
+/// Parameter types used in several source files (§16.3).
 enum ParameterType : std::uint16_t {
   kUtcTimestamp = 128,
   kRoSpec = 177,
@@ -31,23 +31,23 @@ enum ParameterType : std::uint16_t {
   kCustomParameter = 1023,
 };
 
-/// Bits of a tag's memory that a mask names.
+/// A pattern to compare with bits of a tag's memory.
 struct MemoryMask {
   unsigned bank = 1;
   std::uint16_t pointer = 0;  ///< First bit.
   std::uint16_t count = 0;    ///< Bits.
-  Bytes mask;                 ///< Of which count; all where it is of a Select.
+  Bytes mask;                 ///< Which bits are compared; all if from a Select.
   Bytes data;
-  bool match = true;  ///< Else those that differ are meant.
+  bool match = true;  ///< If false, tags that differ match.
 };
 
-/// A Select without states (§15.2.1.2.1.1): who takes part.
+/// A state-unaware Select (§15.2.1.2.1.1): determines which tags take part.
 struct TagFilter {
   MemoryMask mask;
   std::uint8_t action = 0;
 };
 
-/// AntennaConfiguration (§12.2.6); what it does not hold is as it was.
+/// AntennaConfiguration (§12.2.6); missing values stay unchanged.
 struct AntennaSetting {
   std::optional<std::uint16_t> power_index;
   std::optional<std::uint16_t> hop_table;
@@ -56,14 +56,14 @@ struct AntennaSetting {
   std::optional<std::uint8_t> session;
   std::optional<std::uint16_t> tag_population;
   std::optional<std::uint16_t> search_mode;   ///< Impinj's: 1 single, 2 dual target, 3 focus.
-  std::optional<bool> asks_for_b;             ///< Of state-aware singulation.
+  std::optional<bool> asks_for_b;             ///< State B in state-aware singulation.
   std::vector<std::uint16_t> fixed_channels;  ///< Impinj's list, from 1 on.
   std::optional<std::vector<TagFilter>> filters;
 };
-/// Takes over what `over` holds.
+/// Overrides `setting` with the values in `over`.
 void merge(const AntennaSetting& over, AntennaSetting& setting);
 
-/// Settings by antenna; 0 means all.
+/// Settings by antenna ID; 0 means all.
 using AntennaSettings = std::map<std::uint16_t, AntennaSetting>;
 
 enum class StopAt : std::uint8_t { kNull = 0, kDuration = 1, kGpi = 2, kTagObservation = 3 };
@@ -72,7 +72,7 @@ struct AiSpec {
   std::vector<std::uint16_t> antennas;  ///< 0: all.
   StopAt stop = StopAt::kNull;
   Duration duration{};
-  std::uint8_t observation = 0;  ///< Kind of a tag observation trigger.
+  std::uint8_t observation = 0;  ///< Kind of tag observation trigger.
   std::uint16_t tags = 0;
   Duration quiet{};    ///< Its T.
   Duration timeout{};  ///< 0 for none.
@@ -80,9 +80,9 @@ struct AiSpec {
   AntennaSettings settings;
 };
 
-/// Of what a report holds (§14.2.1), and when it is sent.
+/// Contents of a report (§14.2.1), and when it is sent.
 struct ReportSpec {
-  std::uint8_t trigger = 2;  ///< 0 none, 1 N tags or end of an AISpec, 2 or of the ROSpec.
+  std::uint8_t trigger = 2;  ///< 0 none, 1 N tags or end of AISpec, 2 or end of ROSpec.
   std::uint16_t n = 0;       ///< 0 for no limit.
   bool ro_spec = true, spec_index = true, inventory_spec = true, antenna = true, channel = true,
        peak_rssi = true, first_seen = true, last_seen = true, seen_count = true, access_spec = true;
@@ -94,7 +94,7 @@ enum class StartAt : std::uint8_t { kNull = 0, kImmediate = 1, kPeriodic = 2, kG
 
 struct RoSpec {
   std::uint32_t id = 0;
-  std::uint8_t priority = 0;  ///< 0 to 7; 0 goes before all.
+  std::uint8_t priority = 0;  ///< 0 to 7; 0 is the highest.
   StartAt start = StartAt::kNull;
   Duration offset{};
   Duration period{};
@@ -103,13 +103,13 @@ struct RoSpec {
   Duration duration{};
   std::vector<AiSpec> specs;
   std::optional<ReportSpec> report;
-  Bytes whole;  ///< The parameter as it came.
+  Bytes whole;  ///< The parameter as received.
 };
 
 enum class OpKind { kRead, kWrite, kKill, kLock, kBlockErase, kBlockWrite };
 
 struct LockRequest {
-  std::uint8_t privilege = 0;  ///< 0 read and write, 1 for good, 2 never again, 3 unlock.
+  std::uint8_t privilege = 0;  ///< 0 read and write, 1 permalock, 2 permaunlock, 3 unlock.
   std::uint8_t field = 0;      ///< 0 kill, 1 access password, 2 EPC, 3 TID, 4 user memory.
 };
 
@@ -128,17 +128,17 @@ struct AccessSpec {
   std::uint32_t id = 0;
   std::uint16_t antenna = 0;        ///< 0: all.
   std::uint32_t ro_spec = 0;        ///< 0: all.
-  std::uint16_t operations = 0;     ///< After which it is deleted; 0 for never.
+  std::uint16_t operations = 0;     ///< Number after which it is deleted; 0 for never.
   std::vector<MemoryMask> targets;  ///< All must match.
   std::vector<OpSpec> ops;
   Bytes whole;
 };
 
-/// Content of the parameters, without their headers. Throw Fault.
+/// Decode the content of parameters, without their headers. Throw Fault.
 RoSpec ro_spec_of(const Parameter& parameter);
 AccessSpec access_spec_of(const Parameter& parameter);
 ReportSpec report_spec_of(ByteReader content);
-/// Adds an AntennaConfiguration's.
+/// Adds the setting in an AntennaConfiguration.
 void read_antenna_setting(ByteReader content, AntennaSettings& settings);
 
 void write_report_spec(const ReportSpec& spec, ByteWriter& writer);

@@ -8,8 +8,8 @@
 namespace tagfield::llrp {
 namespace {
 
-/// Code of the operation's result (§15.2.1.5): success, tag error, no answer, and where the result
-/// knows it, overrun and lock.
+/// Code of the operation's result (§15.2.1.5): success, tag error, no response, and, if the result
+/// distinguishes them, overrun and lock.
 std::uint8_t code_of(MemoryResult result, OpKind kind) {
   const bool is_write =
       kind == OpKind::kWrite || kind == OpKind::kBlockWrite || kind == OpKind::kBlockErase;
@@ -106,11 +106,11 @@ bool is_meant(const MemoryMask& mask, const MemoryBanks& tag) {
 }
 
 bool is_selected(const std::vector<TagFilter>& filters, const MemoryBanks& tag) {
-  // What a Select does to tags that match it and to the others, by its action (§15.2.1.2.1.3):
-  // 1 selects, 0 unselects, -1 does nothing.
+  // Effect of a Select on matching and on other tags, by its action (§15.2.1.2.1.3): 1 selects, 0
+  // unselects, -1 does nothing.
   constexpr int kMatching[] = {1, 1, -1, 0, 0, -1};
   constexpr int kOthers[] = {0, -1, 0, -1, 1, 1};
-  // Tags begin unselected where the first Select only adds.
+  // Tags are initially unselected if the first Select only adds.
   bool is_in = filters.empty() || (filters.front().action != 1 && filters.front().action != 5);
   for (const TagFilter& filter : filters) {
     const int effect = (is_meant(filter.mask, tag) ? kMatching : kOthers)[filter.action];

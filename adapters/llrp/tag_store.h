@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The memories of all tags of a world, as its readers read and write them.
+/// Memory of all tags of a world, which readers read and write.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,22 @@
 
 namespace tagfield::llrp {
 
-/// Shared by all readers of a world; for the thread that simulates.
+/// Shared by all readers of a world; to be used on the simulation thread only.
 class TagStore {
  public:
-  /// The tag's memory: an EPC for its ID at first.
+  /// The tag's memory, which initially holds an EPC for its ID.
   MemoryBanks& of(const std::string& id);
 
  private:
   std::map<std::string, MemoryBanks> tags_;
 };
 
-/// Writes what came of `op` on the tag as its OpSpecResult.
+/// Performs `op` on the tag and writes its OpSpecResult.
 void operate(const OpSpec& op, MemoryBanks& tag, ByteWriter& result);
 
-/// Whether the tag is one of those that the mask means.
+/// Whether the tag matches the mask.
 bool is_meant(const MemoryMask& mask, const MemoryBanks& tag);
-/// Whether Selects let it take part.
+/// Whether the Selects let the tag take part.
 bool is_selected(const std::vector<TagFilter>& filters, const MemoryBanks& tag);
 
 }  // namespace tagfield::llrp

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint16_t kCustom = 1023;
 constexpr unsigned kVersion = 1;
 
-/// Bytes after the type of those whose length is fixed (§16.1.2); none of others.
+/// Number of bytes after the type for parameters of fixed length (§16.1.2); none for others.
 std::optional<std::size_t> fixed_size(unsigned type) {
   switch (type) {
     case 1:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// LLRP 1.0.1 on the wire: messages, parameters, numbers in network byte order. "§" below is a
-/// section of EPCglobal's Low Level Reader Protocol, version 1.0.1.
+/// LLRP 1.0.1 encoding: messages, parameters, numbers in network byte order. "§" below is a section
+/// of EPCglobal's Low Level Reader Protocol, version 1.0.1.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ enum class Status : std::uint16_t {
   kDeviceError = 401,
 };
 
-/// What is wrong with a message: its status, and one line.
+/// An error in a message: its status, and one line of text.
 class Fault : public std::runtime_error {
  public:
   Fault(Status status, const std::string& message) : std::runtime_error(message), status_(status) {}
@@ -43,7 +43,7 @@ class Fault : public std::runtime_error {
   Status status_;
 };
 
-/// Takes numbers one after the other. Throws Fault where the bytes end before.
+/// Reads numbers one after the other. Throws Fault beyond the end of the bytes.
 class ByteReader {
  public:
   ByteReader(const std::uint8_t* begin, std::size_t size) : begin_(begin), left_(size) {}
@@ -56,9 +56,9 @@ class ByteReader {
   std::uint64_t u64() { return number(8); }
   ByteReader part(std::size_t size);
   Bytes bytes(std::size_t size);
-  /// A list of u16 with their number before.
+  /// A list of u16, preceded by its length.
   std::vector<std::uint16_t> u16_list();
-  /// Bits with their number before, in whole bytes.
+  /// Bits in whole bytes, preceded by their number.
   struct Bits {
     std::uint16_t count = 0;
     Bytes bytes;
@@ -72,24 +72,24 @@ class ByteReader {
   std::size_t left_;
 };
 
-/// A parameter as it stands in a message.
+/// A parameter as contained in a message.
 struct Parameter {
   std::uint16_t type = 0;
   ByteReader content;
   Bytes whole;  ///< With its header.
 };
 
-/// The rest of `reader` as parameters. Throws Fault where that is no whole number of them.
+/// The rest of `reader` as parameters. Throws Fault if that is not a whole number of them.
 std::vector<Parameter> parameters_of(ByteReader reader);
 
-/// The one of this type; none where there is none. Throws Fault where there are two.
+/// The parameter of this type, if any. Throws Fault if there are two.
 std::optional<Parameter> find(const std::vector<Parameter>& all, std::uint16_t type);
-/// Likewise, but throws Fault where there is none.
+/// Same, but throws Fault if there is none.
 Parameter require(const std::vector<Parameter>& all, std::uint16_t type);
-/// Throws Fault where one is of a type that is none of `known`; custom ones may be of any.
+/// Throws Fault if a parameter's type is not in `known`; custom parameters are always accepted.
 void require_known(const std::vector<Parameter>& all, std::initializer_list<std::uint16_t> known);
 
-/// Puts numbers one after the other.
+/// Appends numbers one after the other.
 class ByteWriter {
  public:
   void u8(std::uint8_t value) { number(value, 1); }
@@ -97,15 +97,15 @@ class ByteWriter {
   void s16(std::int16_t value) { number(static_cast<std::uint16_t>(value), 2); }
   void u32(std::uint32_t value) { number(value, 4); }
   void u64(std::uint64_t value) { number(value, 8); }
-  /// As u8 with only its highest bit in use.
+  /// Writes a u8 that uses only its highest bit.
   void flag(bool value) { u8(value ? 0x80 : 0); }
   void bytes(const Bytes& bytes);
-  void text(std::string_view text);  ///< With its length before.
-  /// A parameter with a header of type and length; `write` puts in what it holds.
+  void text(std::string_view text);  ///< Preceded by its length.
+  /// Writes a parameter with a header of type and length; `write` adds its content.
   void parameter(std::uint16_t type, const std::function<void()>& write);
-  /// One of a vendor's.
+  /// As above, for a vendor's custom parameter.
   void custom(std::uint32_t vendor, std::uint32_t subtype, const std::function<void()>& write);
-  /// The header of one with a fixed length, type 1 to 127.
+  /// Writes the header of a fixed-length parameter, type 1 to 127.
   void fixed(std::uint8_t type) { u8(static_cast<std::uint8_t>(0x80U | type)); }
 
   [[nodiscard]] const Bytes& written() const { return bytes_; }
@@ -123,16 +123,16 @@ struct Message {
 };
 
 inline constexpr std::size_t kHeaderSize = 10;
-/// No message of a client's comes near that.
+/// Far longer than any message from a client.
 inline constexpr std::size_t kMostMessage = std::size_t{1} << 20U;
 
-/// With its header.
+/// Encodes the message, with its header.
 Bytes to_bytes(const Message& message);
 
-/// The message's length as the header tells it, from its kHeaderSize bytes. Throws Fault where it
+/// The message's length according to its header of kHeaderSize bytes. Throws Fault if the message
 /// is too short, too long, or of another version.
 std::size_t length_in(const std::uint8_t* header);
-/// All of one message, `length_in()` bytes.
+/// Decodes one whole message, `length_in()` bytes.
 Message message_of(const Bytes& bytes);
 
 }  // namespace tagfield::llrp

@@ -24,10 +24,10 @@ using mcap_internal::take_record;
 
 constexpr std::uint64_t kMostHeldBytes = std::uint64_t{512} << 20U;
 
-/// When a message was logged, and where it is; so ordered, times that are equal keep their order.
+/// Log time and position of a message, in an order in which equal times keep their file order.
 using Entry = std::pair<std::uint64_t, std::size_t>;
 
-/// The messages of a piece that is held.
+/// The messages of a piece in memory.
 struct Held {
   std::string records;
   std::vector<Entry> order;
@@ -61,7 +61,8 @@ Held hold(InputFile& file, const std::set<McapChannelId>& wanted, const Piece& p
   return held;
 }
 
-/// Pieces merged by time: one is held from when its first message may be next until its last was.
+/// Merges pieces by time: a piece is in memory from when its first message may be next until its
+/// last one was passed.
 class Merge {
  public:
   Merge(InputFile& file, const Contents& contents, const std::set<McapChannelId>& wanted)
@@ -118,10 +119,10 @@ class Merge {
   const Contents& contents_;
   const std::set<McapChannelId>& wanted_;
   std::vector<std::size_t> by_time_;  ///< Pieces by their first message.
-  std::size_t next_ = 0;              ///< Of those.
+  std::size_t next_ = 0;              ///< Index of the next of these.
   std::map<std::size_t, Held> held_;
   std::uint64_t held_bytes_ = 0;
-  /// The next message of each piece that is held: its time, and the piece.
+  /// The next message of each piece in memory: its time, and the piece.
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heads_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads MCAP files, of other programs too, and broken ones as far as they go (docs/mcap.md).
+/// Reads MCAP files, including those of other programs, and damaged ones as far as possible
+/// (docs/mcap.md).
 #pragma once
 
 #include <cstdint>
@@ -15,29 +16,29 @@
 
 namespace tagfield {
 
-/// Looks at the whole file when it is made, and checks all CRCs; no index is relied on. So a file
-/// without a summary, or one that was cut off, is as good as what is left of it: what is broken is
-/// left out, with a warning that names the file and the byte.
+/// Scans the whole file on construction and checks all CRCs; it does not rely on an index. So a
+/// file without a summary, or a truncated one, is readable up to the damage: damaged parts are
+/// skipped, with a warning that names the file and the byte.
 class McapReader {
  public:
-  /// Throws Error where there is no file, or one that does not begin as MCAP does.
+  /// Throws Error if the file does not exist or does not begin like an MCAP file.
   McapReader(const std::string& path, Diagnostics& diagnostics);
   ~McapReader();
   McapReader(const McapReader&) = delete;
   McapReader& operator=(const McapReader&) = delete;
 
-  /// What the file says that it keeps to, such as "ros2".
+  /// Profile stated by the file, such as "ros2".
   [[nodiscard]] const std::string& profile() const;
   [[nodiscard]] const std::map<McapChannelId, McapChannel>& channels() const;
-  /// By their numbers in the file; also those that no channel has.
+  /// By their ids in the file, including those that no channel uses.
   [[nodiscard]] const std::map<std::uint16_t, std::shared_ptr<const McapSchema>>& schemas() const;
-  /// Messages that read() tells of.
+  /// Number of messages that read() passes on.
   [[nodiscard]] std::uint64_t message_count(McapChannelId channel) const;
 
-  /// Tells each message of a channel in channels(), or of those of them that are `wanted`, in order
-  /// of log time; those of one time in the order of the file. Holds the chunks whose times overlap,
-  /// and passes over those without a wanted message. Throws Error where those are more
-  /// than 512 MB, or the file was changed since it was opened.
+  /// Passes each message of the channels in channels(), or of the `wanted` ones among them, to
+  /// `tell`, in order of log time; messages with equal times in file order. Holds the chunks whose
+  /// times overlap, and skips those without a wanted message. Throws Error if overlapping chunks
+  /// exceed 512 MB, or if the file has changed since it was opened.
   void read(const std::function<void(const McapMessage&)>& tell);
   void read(const std::set<McapChannelId>& wanted,
             const std::function<void(const McapMessage&)>& tell);

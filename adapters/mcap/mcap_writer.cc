@@ -19,8 +19,8 @@ namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
-/// A message of this part of a chunk or more has a chunk of its own, so that who wants only others
-/// can pass over it.
+/// A message of at least this fraction of a chunk gets a chunk of its own, so that readers that
+/// don't need it can skip it.
 constexpr std::size_t kLargeShare = 4;
 
 using mcap_internal::ClosedChunk;
@@ -35,7 +35,7 @@ using mcap_internal::TimeRange;
 
 constexpr std::size_t kMostIds = 65535;
 
-/// What a symbolic link points to. Throws Error where there is something but no file.
+/// The target of a symbolic link. Throws Error if the path exists but is not a file.
 fs::path target_of(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -62,12 +62,12 @@ struct McapWriter::State {
   McapOptions options;
   fs::path target;
   fs::path partial;
-  std::unique_ptr<GrowingFile> file;  ///< Null once it is finished or given up.
-  std::uint64_t offset = 0;           ///< Bytes that were appended to the file.
+  std::unique_ptr<GrowingFile> file;  ///< Null once finished or abandoned.
+  std::uint64_t offset = 0;           ///< Bytes appended to the file.
   std::uint32_t crc = 0;              ///< Of them.
 
   OpenChunk chunk;
-  std::string definitions;  ///< Records that the next message may need before it.
+  std::string definitions;  ///< Records that may have to precede the next message.
   std::map<std::string, KnownSchema> schemas;
   std::vector<Counted> channels;
   TimeRange times;
@@ -89,7 +89,7 @@ struct McapWriter::State {
   void append_summary();
   void move_to_place();
 
-  /// What writes: if that fails, it was the last.
+  /// Runs a writing step; if it fails, no others follow.
   template <class Step>
   void guarded(const Step& step) {
     if (!file) return;
@@ -148,7 +148,7 @@ void McapWriter::State::make_room(std::size_t size) {
   if (chunk.records.size() + definitions.size() + size > kMostMcapChunkBytes) close();
 }
 
-/// Nothing of a chunk is written before it is full, so a program may end between any two writes.
+/// A chunk is written only when it is full, so the program may be killed between any two writes.
 void McapWriter::State::close() {
   if (chunk.records.empty()) return;
   const ClosedChunk closed = mcap_internal::close_chunk(chunk, options.compression, offset);
@@ -276,8 +276,8 @@ void McapWriter::finish() {
   State& state = *state_;
   state.guarded([&] {
     state.close();
-    // Channels without messages, of which readers that go by the index are told by the summary. A
-    // chunk without messages would be legal too, but has no index for them to go by.
+    // Channels without messages, which readers that use the index find in the summary. A chunk
+    // without messages would be legal too, but has no index entries.
     state.append(std::exchange(state.definitions, {}));
     std::string end;
     put(end, state.crc);

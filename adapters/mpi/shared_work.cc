@@ -68,13 +68,13 @@ struct SharedWork::Parts {
   const Session& session;
   std::function<std::optional<Piece>()> deal;
   std::uint64_t left;
-  std::mutex mutex;  ///< Of the two above.
+  std::mutex mutex;  ///< Guards the two above.
   std::deque<Piece> in_hand;
   bool nothing_left = false;
-  int ranks_at_work;    ///< Others, of which the dealer alone keeps count.
-  std::jthread dealer;  ///< Ends before all that it uses.
+  int ranks_at_work;    ///< Other ranks; used by the dealer thread only.
+  std::jthread dealer;  ///< Declared last, as it uses the members above.
 
-  /// Up to a share of what is left for each rank, flat.
+  /// A share of the remaining pieces for one rank, flattened.
   std::vector<std::uint64_t> handful() {
     const std::lock_guard lock(mutex);
     const std::uint64_t share = left / (4 * static_cast<std::uint64_t>(session.ranks()));
@@ -95,7 +95,7 @@ struct SharedWork::Parts {
              MPI_COMM_WORLD);
   }
 
-  /// Until all other ranks have been told that nothing is left.
+  /// Runs until all other ranks know that nothing is left.
   void deal_to_others() {
     while (ranks_at_work > 0) {
       int is_there = 0;
@@ -136,7 +136,7 @@ SharedWork::SharedWork(const Session& session, std::function<std::optional<Piece
 }
 
 SharedWork::~SharedWork() {
-  // One that stops early still has to be told, as rank 0 waits for it.
+  // A rank that stops early still has to be notified, as rank 0 waits for that.
   while (parts_->session.rank() != 0 && !parts_->nothing_left) {
     parts_->in_hand.clear();
     parts_->ask();

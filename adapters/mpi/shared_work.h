@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Pieces of work dealt out to the ranks of an MPI program as they ask for more, so that quick and
-/// slow ones end at the same time. Knows nothing of what the pieces are.
+/// Dynamic distribution of pieces of work to the ranks of an MPI program on request, so that fast
+/// and slow ranks finish at the same time. Independent of what the pieces are.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace tagfield::mpi {
 
-/// MPI from its beginning to its end, of the whole program: make one, in main().
+/// MPI initialization and finalization for the whole program: create one in main().
 class Session {
  public:
   Session(int& argc, char**& argv);
@@ -23,13 +23,13 @@ class Session {
 
   [[nodiscard]] int rank() const { return rank_; }
   [[nodiscard]] int ranks() const { return ranks_; }
-  /// Waits until all ranks are here.
+  /// Waits for all ranks.
   void barrier() const;
-  /// A number that rank 0 has, to all.
+  /// Broadcasts rank 0's number to all ranks.
   [[nodiscard]] std::uint64_t from_first(std::uint64_t number) const;
-  /// The sum of what all ranks have, at all.
+  /// Sum over all ranks, returned on all of them.
   [[nodiscard]] std::uint64_t sum(std::uint64_t number) const;
-  /// Ends all ranks at once.
+  /// Aborts all ranks immediately.
   [[noreturn]] static void abort(int code);
 
  private:
@@ -37,24 +37,24 @@ class Session {
   int ranks_ = 1;
 };
 
-/// Two numbers that name a piece.
+/// Two numbers that identify a piece.
 using Piece = std::pair<std::uint64_t, std::uint64_t>;
 
-/// Deals out the pieces that rank 0 has; made, used and dropped by all ranks together. Rank 0 deals
-/// from a thread of its own, which sleeps between requests, and works itself. Others ask for
-/// several pieces at a time: fewer the fewer are left, one in the end (guided self-scheduling,
-/// Polychronopoulos and Kuck, 1987).
+/// Distributes the pieces of rank 0; created, used and destroyed collectively by all ranks. Rank 0
+/// hands out pieces on a separate thread, which sleeps between requests, and works itself. Other
+/// ranks request several pieces at a time: fewer as fewer are left, one in the end (guided
+/// self-scheduling, Polychronopoulos and Kuck, 1987).
 class SharedWork {
  public:
-  /// `deal`, called on rank 0 alone, gives the next piece. `count`: how many there are, on rank 0.
+  /// `deal`, called on rank 0 only, returns the next piece. `count`: number of pieces, on rank 0.
   SharedWork(const Session& session, std::function<std::optional<Piece>()> deal,
              std::uint64_t count);
-  /// On rank 0, waits until each rank has been told that nothing is left.
+  /// On rank 0, waits until each rank knows that nothing is left.
   ~SharedWork();
   SharedWork(const SharedWork&) = delete;
   SharedWork& operator=(const SharedWork&) = delete;
 
-  /// The next piece for this rank. By one thread at a time.
+  /// The next piece for this rank. To be called by one thread at a time.
   std::optional<Piece> next();
 
  private:

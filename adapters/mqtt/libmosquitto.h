@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// libmosquitto, loaded when a broker is first connected to.
+/// libmosquitto, loaded on the first connection to a broker.
 #pragma once
 
 #include <mosquitto.h>
@@ -9,7 +9,7 @@
 
 namespace tagfield {
 
-/// Its functions, by their names without "mosquitto_".
+/// Functions of libmosquitto, named without the prefix "mosquitto_".
 struct LibMosquitto : LoadedLibrary {
   LibMosquitto() : LoadedLibrary("MQTT", TAGFIELD_LIBMOSQUITTO) {}
   decltype(&mosquitto_connack_string) connack_string = function("mosquitto_connack_string");

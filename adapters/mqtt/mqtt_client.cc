@@ -21,9 +21,9 @@ constexpr int kKeepalive_s = 20;
 constexpr std::chrono::seconds kLeastDelay(1);
 constexpr std::chrono::seconds kMostDelay(30);
 constexpr int kLoop_ms = 100;
-/// How long goodbye may take.
+/// Time limit for disconnecting.
 constexpr std::chrono::milliseconds kGoodbye(300);
-/// Messages that libmosquitto holds until the broker has acknowledged them; all others wait here.
+/// Messages held by libmosquitto until the broker has acknowledged them; all others wait here.
 constexpr std::size_t kMostHanded = 200;
 
 void init_library() {
@@ -131,11 +131,11 @@ class MqttClient::Impl {
         libmosquitto().connect_async(client_, url.host.c_str(), url.port, kKeepalive_s);
     if (code == MOSQ_ERR_EAI) throw Error(fmt::format("MQTT: the host '{}' is unknown", url.host));
     if (code == MOSQ_ERR_INVAL) require(code);
-    // Whatever else: it will be tried again.
+    // Any other error: the connection will be retried.
     thread_ = std::thread([this] { serve(); });
   }
 
-  /// libmosquitto's own thread gives up where the first attempt fails.
+  /// libmosquitto's own thread gives up if the first attempt fails.
   void serve() {
     while (libmosquitto().loop(client_, kLoop_ms, 1) == MOSQ_ERR_SUCCESS || wait_to_reconnect()) {
       const std::lock_guard lock(mutex_);
@@ -148,7 +148,7 @@ class MqttClient::Impl {
     }
   }
 
-  /// Tries again after a while; false where there is to be an end.
+  /// Reconnects after a delay; false if the client is to end.
   bool wait_to_reconnect() {
     std::unique_lock lock(mutex_);
     if (!std::exchange(was_away_, true)) warn("the broker can't be reached; trying again");
@@ -194,7 +194,7 @@ class MqttClient::Impl {
     changed_.notify_all();
   }
 
-  /// Gives libmosquitto as much as it shall hold, which only queues it here: its thread sends.
+  /// Passes messages to libmosquitto up to the limit, which only queues them: its thread sends.
   void hand_over() {
     while (is_connected_ && handed_ < kMostHanded && !waiting_.empty()) {
       const Message message = std::move(waiting_.front());
@@ -202,7 +202,7 @@ class MqttClient::Impl {
       const int code = libmosquitto().publish(client_, nullptr, message.topic.c_str(),
                                               static_cast<int>(message.payload.size()),
                                               message.payload.data(), kQos, false);
-      // Without a connection it is kept, too, and sent after the next one.
+      // Without a connection the message is also kept, and sent after the next one is made.
       if (code == MOSQ_ERR_SUCCESS || code == MOSQ_ERR_NO_CONN || code == MOSQ_ERR_CONN_LOST) {
         ++handed_;
       } else {
@@ -211,7 +211,7 @@ class MqttClient::Impl {
     }
   }
 
-  /// The first loss is told at once, the sum at the end.
+  /// The first loss is reported immediately, the total at the end.
   void lose(std::size_t count) {
     if (counts_.lost == 0) {
       warn(fmt::format("the queue of {} messages is full: the oldest are lost from now on",
@@ -230,7 +230,7 @@ class MqttClient::Impl {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Message> waiting_;
-  std::size_t handed_ = 0;  ///< To libmosquitto, and not acknowledged.
+  std::size_t handed_ = 0;  ///< Passed to libmosquitto but not acknowledged.
   MqttCounts counts_;
   bool is_connected_ = false;
   bool was_away_ = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Messages to a broker of MQTT, each at least once, whatever the broker does meanwhile.
+/// Sends messages to an MQTT broker, each at least once, across failures of the broker.
 #pragma once
 
 #include <chrono>
@@ -14,38 +14,40 @@
 namespace tagfield {
 
 struct MqttOptions {
-  /// Messages that are kept while the broker is away or slow. Of more the oldest are lost.
+  /// Messages that are buffered while the broker is unreachable or slow. When the buffer is full,
+  /// the oldest are dropped.
   std::size_t most_messages = 100'000;
-  /// How long the end waits while no message gets through.
+  /// How long the destructor waits without any message being delivered.
   std::chrono::milliseconds patience{5000};
-  /// Gets a line where the broker goes, comes back or refuses, and where messages are lost. Called
-  /// from any thread; it must not call the client. Empty for silence.
+  /// Receives one line when the broker becomes unreachable, comes back or refuses messages, and
+  /// when messages are lost. Called from any thread; must not call the client. Empty for no
+  /// warnings.
   std::function<void(const std::string& line)> warn;
 };
 
-/// What became of messages.
+/// Messages by outcome.
 struct MqttCounts {
   std::size_t taken = 0;      ///< Handed to the client.
-  std::size_t delivered = 0;  ///< The broker said that it has them.
-  std::size_t lost = 0;       ///< There was no room for them.
+  std::size_t delivered = 0;  ///< Acknowledged by the broker.
+  std::size_t lost = 0;       ///< Dropped because the buffer was full or time ran out at the end.
 };
 
-/// Publishes with quality of service 1: what the broker has not acknowledged is sent again after a
-/// reconnection, so that it may come twice. Tries to reconnect after 1, 2, 4, … 30 s.
+/// Publishes with quality of service 1: messages that the broker has not acknowledged are sent
+/// again after a reconnection, so they may arrive twice. Retries to connect after 1, 2, 4, … 30 s.
 class MqttClient {
  public:
-  /// Begins to connect, and doesn't wait for it. Throws Error where the host is not known, TLS
-  /// is not built in, or Tagfield was built without libmosquitto.
+  /// Starts to connect, without waiting for it. Throws Error if the host is unknown, TLS is not
+  /// built in, or Tagfield was built without libmosquitto.
   MqttClient(const MqttUrl& url, const MqttOptions& options);
-  /// finish()es, with MqttOptions::patience.
+  /// Calls finish() with MqttOptions::patience.
   ~MqttClient();
   MqttClient(const MqttClient&) = delete;
   MqttClient& operator=(const MqttClient&) = delete;
 
-  /// From any thread. Never waits for the network.
+  /// Callable from any thread. Never waits for the network.
   void publish(const std::string& topic, const std::string& payload);
-  /// Waits until the broker has all, or gives up once no message got through for so long, and
-  /// counts the rest as lost. Then nothing more can be published.
+  /// Waits until the broker has acknowledged all messages. Gives up if none is acknowledged for
+  /// `patience`, and counts the rest as lost. No more messages can be published after that.
   void finish(std::chrono::milliseconds patience);
   [[nodiscard]] MqttCounts counts() const;
 

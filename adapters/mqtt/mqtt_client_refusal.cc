@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of mqtt_client.cc, in builds without libmosquitto.
+// Replaces mqtt_client.cc in builds without libmosquitto.
 #include "adapters/mqtt/mqtt_client.h"
 #include "tagfield/base/error.h"
 

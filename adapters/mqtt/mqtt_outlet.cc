@@ -27,7 +27,7 @@ void MqttOutlet::on_cycle(const CycleReports& reports) {
 }
 
 void MqttOutlet::publish_event(std::string line) {
-  line.pop_back();  // its end
+  line.pop_back();  // the line end
   client_.publish(url_.prefix + "/events", line);
 }
 

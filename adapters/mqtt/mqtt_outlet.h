@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads and events to a broker of MQTT.
+/// Publishes reads and events to an MQTT broker.
 #pragma once
 
 #include <string>
@@ -17,8 +17,8 @@ namespace tagfield {
 /// append_json() and event_json.h), with quality of service 1. Never waits for the broker.
 class MqttOutlet final : public ReadListener, public EventListener {
  public:
-  /// `url` as of mqtt_url(); times are `start`, since 1970, plus stamps. Throws Error as MqttClient
-  /// does.
+  /// `url`: as for mqtt_url(); times are `start`, since 1970, plus stamps. Throws Error as
+  /// MqttClient does.
   MqttOutlet(const std::string& url, Time start, const MqttOptions& options);
 
   void on_antenna_added(const AntennaInfo& antenna) override;

@@ -22,7 +22,7 @@ std::string without_password(const std::string& text) {
   return text.substr(0, begin + 3) + "…" + text.substr(at);
 }
 
-/// %XX as what it stands for; none where that is malformed.
+/// Text with %XX decoded; none if malformed.
 std::optional<std::string> decoded(const std::string& text) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where a broker of MQTT is, as one word.
+/// URLs of MQTT brokers.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@ namespace tagfield {
 /// Parts of "mqtt://[user[:password]@]host[:port][/prefix]", or "mqtts://…" with TLS.
 struct MqttUrl {
   bool has_tls = false;
-  std::string user;                 ///< "" for nobody.
+  std::string user;                 ///< "" for none.
   std::string password;             ///< "" for none.
-  std::string host;                 ///< A name, or an address; of IPv6 without its brackets.
-  int port = 1883;                  ///< With TLS 8883 where none is given.
-  std::string prefix = "tagfield";  ///< Of all topics, without a '/' at its end.
+  std::string host;                 ///< A name or an address; IPv6 without brackets.
+  int port = 1883;                  ///< Default with TLS: 8883.
+  std::string prefix = "tagfield";  ///< Of all topics, without a trailing '/'.
 };
 
-/// User, password and prefix may have %XX. Throws Error that names the URL, its password left out,
-/// where it is none.
+/// User, password and prefix may contain %XX. Throws Error, which names the URL without its
+/// password, if it is malformed.
 MqttUrl mqtt_url(const std::string& text);
 
 /// "host:port", for messages.

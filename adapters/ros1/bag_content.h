@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the messages of a bag say, checked and as plain structs, not yet joined.
+/// Contents of a bag's messages, checked and converted to plain structs, but not yet combined.
 #pragma once
 
 #include <functional>
@@ -15,11 +15,11 @@
 
 namespace tagfield {
 
-/// An antenna looked for tags then, and may have read some.
+/// An update of an antenna, in which it may have read tags.
 struct RecordedUpdate {
   Time stamp;
   std::string antenna;
-  std::string frame;  ///< The antenna's, in tf; may be "".
+  std::string frame;  ///< The antenna's frame in tf; may be "".
 };
 
 /// The pose of frame C in its parent P.
@@ -28,22 +28,22 @@ struct StampedTransform {
   std::string parent;
   std::string child;
   RigidTransform X_PC;
-  bool is_static = false;  ///< Holds at all times.
+  bool is_static = false;  ///< Valid at all times.
 };
 
-/// Gets what a bag has by the million, in the order of receipt.
+/// Receives what a bag contains by the million, in order of receipt.
 struct BagReadSink {
   std::function<void(TagRead&&, const std::string& frame)> on_read;  ///< Phases as recorded.
   std::function<void(TrueDistance&&)> on_distance;
-  std::function<void()> on_reset;  ///< Nothing that came before counts.
-  bool alone = false;              ///< Nothing else of the bag is kept.
+  std::function<void()> on_reset;  ///< Everything received before is invalid.
+  bool alone = false;              ///< Nothing else from the bag is kept.
 };
 
-/// In the order of receipt, but for what `sink` gets.
+/// In order of receipt, except for what `sink` receives.
 struct BagContent {
   explicit BagContent(const BagReadSink& takes_reads) : sink(&takes_reads) {}
 
-  /// To be called after each message: where the sink is alone, keeps the clock alone.
+  /// To be called after each message: if the sink is alone, keeps only the clock.
   void forget_unwanted() {
     if (!sink->alone) return;
     updates.clear();
@@ -53,12 +53,12 @@ struct BagContent {
   }
 
   const BagReadSink* sink;
-  std::vector<RecordedUpdate> updates;  ///< Of messages; the reads in one may have other stamps.
+  std::vector<RecordedUpdate> updates;  ///< One per message, whose reads may have other stamps.
   std::vector<StampedTransform> transforms;
-  std::vector<AntennaPose> given_poses;  ///< Those that came with a TagArray's reads.
+  std::vector<AntennaPose> given_poses;  ///< From a TagArray's reads.
   Truth truth;                           ///< Without distances.
   std::string truth_frame;               ///< Of antennas, or "".
-  std::map<std::string, Time> clock;     ///< Latest stamp of each stream, to notice a reset.
+  std::map<std::string, Time> clock;     ///< Latest stamp of each stream, to detect a reset.
 };
 
 }  // namespace tagfield

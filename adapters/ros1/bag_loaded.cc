@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of bag_recording.cc in programs that load what reads bags.
+// Replaces bag_recording.cc in programs that load the bag reader at run time.
 #include <filesystem>
 
 #include "adapters/ros1/bag_reader.h"
@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-/// Beside the program, as it is built and as it is installed.
+/// Path of the reader relative to the program, as built or as installed.
 std::string reader_file() {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);

@@ -25,7 +25,7 @@ constexpr std::size_t kLongestName = 1000;   ///< Bytes.
 constexpr std::uint32_t kLastSecond = 4'000'000'000;
 constexpr Duration kReset = std::chrono::seconds(1);
 
-/// One of a list's elements, in complaints alone: "reads[3].epc".
+/// Name of a list's element, formatted for error messages only: "reads[3].epc".
 struct FieldName {
   const char* list = "";
   std::size_t index = 0;
@@ -37,7 +37,7 @@ std::string to_text(const FieldName& name) {
 const std::string& to_text(const std::string& name) { return name; }
 
 template <class Name>
-double checked(double value, double greatest, const Name& what, const MessagePlace& place) {
+double checked(double value, double greatest, const Name& what, const MessageLocation& place) {
   if (!(std::abs(value) <= greatest)) {
     fail_at(place, fmt::format("{} is {}, expected a number within ±{:g}", to_text(what), value,
                                greatest));
@@ -47,7 +47,7 @@ double checked(double value, double greatest, const Name& what, const MessagePla
 
 template <class Name>
 const std::string& checked_name(const std::string& name, const Name& what,
-                                const MessagePlace& place) {
+                                const MessageLocation& place) {
   if (name.empty()) fail_at(place, fmt::format("{} is empty, expected a name", to_text(what)));
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
   if (name.size() > kLongestName || std::any_of(name.begin(), name.end(), is_control)) {
@@ -58,7 +58,7 @@ const std::string& checked_name(const std::string& name, const Name& what,
   return name;
 }
 
-Time stamp_of(const ros2::builtin_interfaces::Time& stamp, const MessagePlace& place) {
+Time stamp_of(const ros2::builtin_interfaces::Time& stamp, const MessageLocation& place) {
   if (stamp.sec < 0) fail_at(place, fmt::format("stamp is {} s, expected 0 or more", stamp.sec));
   if (stamp.nanosec >= 1'000'000'000) {
     fail_at(place, fmt::format("header.stamp is {} s and {} ns, expected a time", stamp.sec,
@@ -67,7 +67,7 @@ Time stamp_of(const ros2::builtin_interfaces::Time& stamp, const MessagePlace& p
   return Time(std::chrono::seconds(stamp.sec) + Duration(stamp.nanosec));
 }
 
-Time stamp_of(const ros::Time& stamp, const MessagePlace& place) {
+Time stamp_of(const ros::Time& stamp, const MessageLocation& place) {
   if (stamp.nsec >= 1'000'000'000 || stamp.sec > kLastSecond) {
     fail_at(place,
             fmt::format("header.stamp is {} s and {} ns, expected a time", stamp.sec, stamp.nsec));
@@ -75,13 +75,13 @@ Time stamp_of(const ros::Time& stamp, const MessagePlace& place) {
   return Time(std::chrono::seconds(stamp.sec) + Duration(stamp.nsec));
 }
 
-/// tf knows "/map" and "map" as the same.
+/// "/map" and "map" are the same frame in tf.
 std::string frame_of(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
 template <typename Point>  // geometry_msgs' Point or Vector3
-Eigen::Vector3d place_of(const Point& p, const std::string& what, const MessagePlace& place) {
+Eigen::Vector3d place_of(const Point& p, const std::string& what, const MessageLocation& place) {
   return {checked(p.x, kMostCoordinate_m, what + ".x", place),
           checked(p.y, kMostCoordinate_m, what + ".y", place),
           checked(p.z, kMostCoordinate_m, what + ".z", place)};
@@ -89,7 +89,7 @@ Eigen::Vector3d place_of(const Point& p, const std::string& what, const MessageP
 
 template <typename Quaternion>
 Eigen::Quaterniond rotation_of(const Quaternion& q, const std::string& what,
-                               const MessagePlace& place) {
+                               const MessageLocation& place) {
   const Eigen::Quaterniond quaternion(q.w, q.x, q.y, q.z);
   const auto rotation = as_rotation(quaternion);
   if (!rotation) {
@@ -99,12 +99,12 @@ Eigen::Quaterniond rotation_of(const Quaternion& q, const std::string& what,
 }
 
 template <typename Pose>
-RigidTransform pose_of(const Pose& pose, const std::string& what, const MessagePlace& place) {
+RigidTransform pose_of(const Pose& pose, const std::string& what, const MessageLocation& place) {
   return {rotation_of(pose.orientation, what + ".orientation", place),
           place_of(pose.position, what + ".position", place)};
 }
 
-/// Keeps of each tag where it was last, from `stamp` on: its message may have been sent once only.
+/// Keeps each tag's last position, valid from `stamp` on: its message may have been sent only once.
 void keep_last_places(std::vector<TagPosition>& positions, Time stamp) {
   std::map<std::string, TagPosition> last;
   for (const TagPosition& position : positions) last[position.tag] = position;
@@ -126,8 +126,8 @@ void forget(BagContent& content, Time stamp) {
   content = std::move(kept);
 }
 
-/// Notes the stamp of a stream and notices a reset.
-void follow_clock(const std::string& stream, Time stamp, const MessagePlace& place,
+/// Records the stamp of a stream and detects a reset.
+void follow_clock(const std::string& stream, Time stamp, const MessageLocation& place,
                   BagContent& content, Diagnostics& diagnostics) {
   const auto latest = content.clock.find(stream);
   if (latest != content.clock.end() && stamp + kReset < latest->second) {
@@ -142,7 +142,7 @@ void follow_clock(const std::string& stream, Time stamp, const MessagePlace& pla
 }
 
 template <class Message>
-TagRead read_of(const Message& message, std::size_t index, const MessagePlace& place) {
+TagRead read_of(const Message& message, std::size_t index, const MessageLocation& place) {
   const auto at = [index](const char* field) { return FieldName{"reads", index, field}; };
   TagRead read;
   read.stamp = stamp_of(message.header.stamp, place);
@@ -186,7 +186,7 @@ std::string last_name(const std::string& topic) {
 }
 
 template <class TagReads>
-void take_reads(const TagReads& message, const MessagePlace& place, BagContent& content,
+void take_reads(const TagReads& message, const MessageLocation& place, BagContent& content,
                 Diagnostics& diagnostics) {
   const Time stamp = stamp_of(message.header.stamp, place);
   const std::string antenna = checked_name(message.antenna, "antenna", place);
@@ -204,8 +204,8 @@ void take_reads(const TagReads& message, const MessagePlace& place, BagContent& 
 }
 
 template <class AntennaTruth>
-void take_antenna_truth(const AntennaTruth& message, const MessagePlace& place, BagContent& content,
-                        Diagnostics& diagnostics) {
+void take_antenna_truth(const AntennaTruth& message, const MessageLocation& place,
+                        BagContent& content, Diagnostics& diagnostics) {
   const Time stamp = stamp_of(message.header.stamp, place);
   const std::string antenna = checked_name(message.antenna, "antenna", place);
   if (message.epcs.size() != message.distances.size()) {
@@ -224,8 +224,8 @@ void take_antenna_truth(const AntennaTruth& message, const MessagePlace& place, 
 }
 
 template <class TagPositions>
-void take_tag_positions(const TagPositions& message, const MessagePlace& place, BagContent& content,
-                        Diagnostics& /*diagnostics*/) {
+void take_tag_positions(const TagPositions& message, const MessageLocation& place,
+                        BagContent& content, Diagnostics& /*diagnostics*/) {
   const Time stamp = stamp_of(message.header.stamp, place);
   for (std::size_t i = 0; i < message.tags.size(); ++i) {
     const std::string at = fmt::format("tags[{}].", i);
@@ -236,7 +236,7 @@ void take_tag_positions(const TagPositions& message, const MessagePlace& place, 
 }
 
 template <class Odometry>
-void take_odometry(const Odometry& message, const MessagePlace& place, BagContent& content,
+void take_odometry(const Odometry& message, const MessageLocation& place, BagContent& content,
                    Diagnostics& diagnostics) {
   const Time stamp = stamp_of(message.header.stamp, place);
   const std::string robot = checked_name(robot_of(place.topic), "the topic's namespace", place);
@@ -246,7 +246,7 @@ void take_odometry(const Odometry& message, const MessagePlace& place, BagConten
 }
 
 template <class TFMessage>
-void take_transforms(const TFMessage& message, const MessagePlace& place, BagContent& content,
+void take_transforms(const TFMessage& message, const MessageLocation& place, BagContent& content,
                      Diagnostics& diagnostics) {
   const bool is_static = last_name(place.topic) == "tf_static";
   for (std::size_t i = 0; i < message.transforms.size(); ++i) {
@@ -267,14 +267,14 @@ void take_transforms(const TFMessage& message, const MessagePlace& place, BagCon
   }
 }
 
-void take_array(const rfid_sensor::TagArray& message, const MessagePlace& place,
+void take_array(const rfid_sensor::TagArray& message, const MessageLocation& place,
                 double frequency_hz, BagContent& content, Diagnostics& diagnostics) {
   const Time stamp = stamp_of(message.header.stamp, place);
   const std::string antenna = checked_name(sensor_of(place.topic), "the topic's sensor", place);
   const geometry_msgs::Quaternion& q = message.antennaPose.orientation;
   RigidTransform X_WA;
   X_WA.translation = place_of(message.antennaPose.position, "antennaPose.position", place);
-  // A message that only gives the place leaves all four at 0.
+  // A message with only a position leaves all four at 0.
   if (q.x != 0.0 || q.y != 0.0 || q.z != 0.0 || q.w != 0.0) {
     X_WA.rotation = rotation_of(q, "antennaPose.orientation", place);
   }
@@ -298,25 +298,25 @@ void take_array(const rfid_sensor::TagArray& message, const MessagePlace& place,
   }
 }
 
-template void take_reads(const tagfield_msgs::TagReads&, const MessagePlace&, BagContent&,
+template void take_reads(const tagfield_msgs::TagReads&, const MessageLocation&, BagContent&,
                          Diagnostics&);
-template void take_reads(const ros2::tagfield_msgs::TagReads&, const MessagePlace&, BagContent&,
+template void take_reads(const ros2::tagfield_msgs::TagReads&, const MessageLocation&, BagContent&,
                          Diagnostics&);
-template void take_antenna_truth(const tagfield_msgs::AntennaTruth&, const MessagePlace&,
+template void take_antenna_truth(const tagfield_msgs::AntennaTruth&, const MessageLocation&,
                                  BagContent&, Diagnostics&);
-template void take_antenna_truth(const ros2::tagfield_msgs::AntennaTruth&, const MessagePlace&,
+template void take_antenna_truth(const ros2::tagfield_msgs::AntennaTruth&, const MessageLocation&,
                                  BagContent&, Diagnostics&);
-template void take_tag_positions(const tagfield_msgs::TagPositions&, const MessagePlace&,
+template void take_tag_positions(const tagfield_msgs::TagPositions&, const MessageLocation&,
                                  BagContent&, Diagnostics&);
-template void take_tag_positions(const ros2::tagfield_msgs::TagPositions&, const MessagePlace&,
+template void take_tag_positions(const ros2::tagfield_msgs::TagPositions&, const MessageLocation&,
                                  BagContent&, Diagnostics&);
-template void take_odometry(const nav_msgs::Odometry&, const MessagePlace&, BagContent&,
+template void take_odometry(const nav_msgs::Odometry&, const MessageLocation&, BagContent&,
                             Diagnostics&);
-template void take_odometry(const ros2::nav_msgs::Odometry&, const MessagePlace&, BagContent&,
+template void take_odometry(const ros2::nav_msgs::Odometry&, const MessageLocation&, BagContent&,
                             Diagnostics&);
-template void take_transforms(const tf2_msgs::TFMessage&, const MessagePlace&, BagContent&,
+template void take_transforms(const tf2_msgs::TFMessage&, const MessageLocation&, BagContent&,
                               Diagnostics&);
-template void take_transforms(const ros2::tf2_msgs::TFMessage&, const MessagePlace&, BagContent&,
+template void take_transforms(const ros2::tf2_msgs::TFMessage&, const MessageLocation&, BagContent&,
                               Diagnostics&);
 
 }  // namespace tagfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Messages of a bag to BagContent.
+/// Conversion of a bag's messages to BagContent.
 #pragma once
 
 #include <rfid_sensor/TagArray.h>
@@ -13,34 +13,35 @@
 
 namespace tagfield {
 
-/// Take a message of tagfield_msgs, nav_msgs or tf2_msgs, of ROS 1 or of ROS 2, into `content`.
-/// Throw Error where a number is not finite or absurd, a name empty or no text, a stamp no time.
-/// Where a stream's stamps go back by over a second the simulation was reset: what `content` held
-/// is dropped with a warning, static transforms and the tags' places excepted.
+/// Add a message of tagfield_msgs, nav_msgs or tf2_msgs, from ROS 1 or ROS 2, to `content`. Throw
+/// Error if a number is not finite or is absurd, a name is empty or not text, or a stamp is
+/// invalid. If the stamps of a stream go back by more than a second, the simulation was reset: the
+/// previous `content` is then dropped with a warning, except for static transforms and tag
+/// positions.
 template <class TagReads>
-void take_reads(const TagReads& message, const MessagePlace& place, BagContent& content,
+void take_reads(const TagReads& message, const MessageLocation& place, BagContent& content,
                 Diagnostics& diagnostics);
 template <class AntennaTruth>
-void take_antenna_truth(const AntennaTruth& message, const MessagePlace& place, BagContent& content,
-                        Diagnostics& diagnostics);
+void take_antenna_truth(const AntennaTruth& message, const MessageLocation& place,
+                        BagContent& content, Diagnostics& diagnostics);
 template <class TagPositions>
-void take_tag_positions(const TagPositions& message, const MessagePlace& place, BagContent& content,
-                        Diagnostics& diagnostics);
-/// The robot has the name of the topic's namespace, or "robot" where it has none.
+void take_tag_positions(const TagPositions& message, const MessageLocation& place,
+                        BagContent& content, Diagnostics& diagnostics);
+/// The robot's name is the topic's namespace, or "robot" if there is none.
 template <class Odometry>
-void take_odometry(const Odometry& message, const MessagePlace& place, BagContent& content,
+void take_odometry(const Odometry& message, const MessageLocation& place, BagContent& content,
                    Diagnostics& diagnostics);
 /// Transforms of a topic "…/tf_static" are static.
 template <class TFMessage>
-void take_transforms(const TFMessage& message, const MessagePlace& place, BagContent& content,
+void take_transforms(const TFMessage& message, const MessageLocation& place, BagContent& content,
                      Diagnostics& diagnostics);
 
-/// Likewise one of the published plugin's: the antenna has the second last name of the topic
-/// (…/SENSOR/data); all reads have the carrier `frequency_hz`.
-void take_array(const rfid_sensor::TagArray& message, const MessagePlace& place,
+/// Same, for a message of the published plugin: the antenna's name is the second to last part of
+/// the topic (…/SENSOR/data); all reads have the carrier `frequency_hz`.
+void take_array(const rfid_sensor::TagArray& message, const MessageLocation& place,
                 double frequency_hz, BagContent& content, Diagnostics& diagnostics);
 
-/// The name of a topic without its namespace: "/a/b/tf" → "tf".
+/// A topic's name without its namespace: "/a/b/tf" → "tf".
 std::string last_name(const std::string& topic);
 
 }  // namespace tagfield

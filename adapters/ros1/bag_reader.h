@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The one function of the library lib/tagfield/rosbag.so: read_bag() of bag_recording.h, for those
-/// that load it.
+/// The only function of the library lib/tagfield/rosbag.so, which is loaded at run time: read_bag()
+/// of bag_recording.h.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 extern "C" {
 
-/// As read_bag(), whose result becomes `recording`.
+/// As read_bag(), but stores the result in `recording`.
 void tagfield_read_bag(const std::string& path, const tagfield::BagOptions& options,
                        tagfield::Diagnostics& diagnostics, tagfield::BagRecording& recording);
 }

@@ -27,12 +27,12 @@ void sort_by_stamp(std::vector<Stamped>& list) {
                    [](const Stamped& a, const Stamped& b) { return a.stamp < b.stamp; });
 }
 
-/// Of a list by stamp, drops all but the first of those with the same stamp and key; how many that
-/// were.
+/// In a list sorted by stamp, drops all but the first of those with the same stamp and key; returns
+/// how many were dropped.
 template <typename Stamped, typename KeyOf>
 std::size_t keep_first(std::vector<Stamped>& list, const KeyOf& key_of) {
   std::vector<char> repeats(list.size(), 0);
-  std::set<decltype(key_of(list.front()))> seen;  // At one stamp.
+  std::set<decltype(key_of(list.front()))> seen;  // At the current stamp.
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (i == 0 || list[i].stamp != list[i - 1].stamp) seen.clear();
     repeats[i] = seen.insert(key_of(list[i])).second ? 0 : 1;
@@ -55,7 +55,7 @@ std::pair<std::string_view, std::string_view> antenna_and_tag(const OfTag& of_ta
   return {of_tag.antenna, of_tag.tag};
 }
 
-/// Sorted, each read once.
+/// Sorted reads without duplicates.
 std::vector<TagRead> tidy_reads(std::vector<TagRead> reads, const std::string& path,
                                 Diagnostics& diagnostics) {
   sort_by_stamp(reads);
@@ -73,14 +73,14 @@ bool same_pose(const RigidTransform& a, const RigidTransform& b) {
   return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
 }
 
-/// Sorted, each stamp once.
+/// Sorted poses without duplicates.
 std::vector<AntennaPose> ordered_poses(std::vector<AntennaPose> poses) {
   sort_by_stamp(poses);
   keep_first(poses, antenna_of);
   return poses;
 }
 
-/// Ordered, and one row of whoever never moved.
+/// Sorted poses without duplicates, with only one row for what never moved.
 std::vector<AntennaPose> tidy_poses(std::vector<AntennaPose> unordered) {
   const std::vector<AntennaPose> poses = ordered_poses(std::move(unordered));
   std::map<std::string, const AntennaPose*> first;
@@ -98,7 +98,7 @@ std::vector<AntennaPose> tidy_poses(std::vector<AntennaPose> unordered) {
   return tidy;
 }
 
-/// A row for each tag, and one for each time that it moved.
+/// One row per tag, and another for each time that it moved.
 std::vector<TagPosition> changes_of(std::vector<TagPosition> positions) {
   sort_by_stamp(positions);
   std::map<std::string, Eigen::Vector3d> last;
@@ -113,7 +113,7 @@ std::vector<TagPosition> changes_of(std::vector<TagPosition> positions) {
 }
 
 Truth tidy_truth(Truth truth) {
-  // All of them, also at rest: a replay updates the antennas at these stamps.
+  // All of them, even at rest: a replay updates the antennas at these stamps.
   truth.antenna_poses = ordered_poses(std::move(truth.antenna_poses));
   truth.robot_poses = tidy_poses(std::move(truth.robot_poses));
   truth.tag_positions = changes_of(std::move(truth.tag_positions));
@@ -137,7 +137,7 @@ double duration_of(const BagContent& content) {
   return first > last ? 0.0 : to_seconds(last - first);
 }
 
-/// Gives antennas that tf doesn't know, and that never moved, their true place.
+/// Adds the true pose of antennas that tf doesn't know and that never moved.
 void add_fixed_antennas(const BagRecording& recording, std::vector<AntennaPose>& poses) {
   std::map<std::string, std::size_t> rows;
   std::set<std::string> known;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of bag_recording.cc where Tagfield is built without ROS 1.
+// Replaces bag_recording.cc in builds without ROS 1.
 #include "adapters/ros1/bag_recording.h"
 
 namespace tagfield {

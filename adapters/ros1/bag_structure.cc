@@ -31,15 +31,15 @@ enum Operation : std::uint8_t {
 };
 constexpr std::size_t kIndexEntry = 12;  ///< A time and an offset.
 constexpr std::size_t kInfoEntry = 8;    ///< A connection and a count.
-/// A chunk without compression. rosbag makes them of 768 KiB, or one message.
+/// Limit of an uncompressed chunk. rosbag's have 768 KiB, or one message.
 constexpr std::uint32_t kMostChunk = 1U << 28U;
 
-/// What is wrong, without the file.
+/// A description of damage, without the file name.
 struct Damage {
   std::string what;
 };
 
-/// A number as the file has it: little-endian.
+/// A number in the file's encoding, little-endian.
 template <typename Number>
 Number number_in(std::string_view bytes) {
   if (bytes.size() != sizeof(Number)) throw Damage{"a field has a wrong size"};
@@ -48,7 +48,7 @@ Number number_in(std::string_view bytes) {
   return number;
 }
 
-/// Takes `size` bytes from the front.
+/// Removes `size` bytes from the front and returns them.
 std::string_view cut(std::string_view& bytes, std::size_t size) {
   if (size > bytes.size()) throw Damage{"a record goes beyond its end"};
   const std::string_view front = bytes.substr(0, size);
@@ -61,8 +61,8 @@ std::string_view cut_counted(std::string_view& bytes) {
   return cut(bytes, size);
 }
 
-/// The header of a record, "name=value" fields, each after its size. All of them are looked
-/// through: rosbag reads beyond the end of a header whose last field is longer than what is left.
+/// The header of a record, "name=value" fields, each preceded by its size. All of them are checked:
+/// rosbag reads beyond the end of a header whose last field is longer than the remaining bytes.
 class Header {
  public:
   explicit Header(std::string_view bytes) : bytes_(bytes) {
@@ -91,7 +91,7 @@ class Header {
   std::string_view bytes_;
 };
 
-/// A chunk's records as they were before compression, into `unpacked` where there was any.
+/// A chunk's uncompressed records, stored in `unpacked` if they were compressed.
 std::string_view records_of(const Header& header, std::string_view data, std::string& unpacked) {
   const auto size = header.number<std::uint32_t>("size");
   const std::string_view compression = header.text("compression");
@@ -101,7 +101,7 @@ std::string_view records_of(const Header& header, std::string_view data, std::st
     return data;
   }
   unpacked.resize(size);
-  std::string packed(data);  // Neither library says that it leaves its input alone.
+  std::string packed(data);  // Neither library guarantees not to modify its input.
   auto unpacked_size = size;
   const auto packed_size = static_cast<unsigned>(packed.size());
   const bool whole = compression == "bz2"
@@ -114,7 +114,7 @@ std::string_view records_of(const Header& header, std::string_view data, std::st
   return unpacked;
 }
 
-/// rosbag leaks what it had read of a bag where it finds a field missing.
+/// rosbag leaks what it has read of a bag when a field is missing.
 void check_connection(const Header& header, std::string_view data) {
   (void)header.number<std::uint32_t>("conn");
   (void)header.text("topic");
@@ -122,7 +122,7 @@ void check_connection(const Header& header, std::string_view data) {
   for (const char* name : {"type", "md5sum", "message_definition"}) (void)description.text(name);
 }
 
-/// Where a chunk's messages begin, rising.
+/// Offsets of a chunk's messages, ascending.
 std::vector<std::uint32_t> message_begins(std::string_view records) {
   std::vector<std::uint32_t> begins;
   std::string_view rest = records;
@@ -161,7 +161,7 @@ void check_index(const Header& header, std::string_view data,
   }
 }
 
-/// One record after the other.
+/// Sequential access to records.
 class RecordFile {
  public:
   explicit RecordFile(const std::string& path)
@@ -187,10 +187,11 @@ class RecordFile {
   std::uint64_t left_;
 };
 
-/// Goes through a bag's records. What one leads to must be there: rosbag goes wherever it leads.
+/// Traverses a bag's records and checks that everything they refer to exists, as rosbag follows any
+/// offset.
 class Walk {
  public:
-  /// Whether the bag was finished: an index position of 0 is there until the index is.
+  /// Whether the bag was finished: the index position is 0 until the index is written.
   bool through(RecordFile& file) {
     while (!file.at_end()) {
       const std::uint64_t position = file.position();
@@ -248,10 +249,10 @@ class Walk {
     }
   }
 
-  std::uint64_t index_position_ = 1;  ///< None yet; of no record.
+  std::uint64_t index_position_ = 1;  ///< Not known yet; matches no record.
   std::uint64_t said_connections_ = 0;
   std::uint64_t said_chunks_ = 0;
-  std::uint64_t connections_ = 0;  ///< Outside of chunks: of the index.
+  std::uint64_t connections_ = 0;  ///< Outside of chunks, in the index.
   std::uint64_t infos_ = 0;
   std::set<std::uint64_t> starts_;  ///< Of all records.
   std::set<std::uint64_t> chunks_;

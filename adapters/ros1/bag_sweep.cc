@@ -19,9 +19,9 @@
 namespace tagfield {
 namespace {
 
-constexpr double kAssumedFrequency = 865.7e6;  ///< [Hz] The paper's.
+constexpr double kAssumedFrequency = 865.7e6;  ///< [Hz] As in the paper.
 
-/// Opening, reading and the complaints of both.
+/// Runs `work` and converts errors on opening and reading the bag.
 template <typename Work>
 BagContent with_bag_errors(const std::string& path, const Work& work) {
   try {
@@ -44,7 +44,7 @@ BagContent with_bag_errors(const std::string& path, const Work& work) {
 
 enum class Kind { kReads, kAntennaTruth, kTagPositions, kRobot, kTransforms, kArray };
 
-/// What a connection is for, by its type and, where others use that as well, its topic.
+/// The kind of a connection, by its type and, for types with other uses, its topic.
 std::optional<Kind> kind_of(const rosbag::ConnectionInfo& connection) {
   const std::string& type = connection.datatype;
   const std::string& topic = connection.topic;
@@ -90,7 +90,7 @@ void read_bytes(const rosbag::MessageInstance& instance, std::vector<std::uint8_
   instance.write(stream);
 }
 
-/// Goes through a bag once.
+/// One pass over a bag.
 class Sweep {
  public:
   Sweep(const std::string& path, std::optional<double> frequency_hz, const BagReadSink& sink,
@@ -154,7 +154,7 @@ class Sweep {
 
   void take_message(const rosbag::MessageInstance& instance) {
     const std::string& topic = instance.getTopic();
-    const MessagePlace place = {path_, topic, ++numbers_[topic]};
+    const MessageLocation place = {path_, topic, ++numbers_[topic]};
     read_bytes(instance, bytes_);
     switch (of_topic_.at(topic)) {
       case Kind::kReads:

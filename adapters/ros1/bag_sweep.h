@@ -12,10 +12,10 @@
 
 namespace tagfield {
 
-/// What the messages of the bag say, in the order of receipt; which are looked at, see read_bag().
-/// `sink`, which must outlive the content, gets the reads and true distances. `frequency_hz` is the
-/// carrier of reads that don't say theirs; without it one is assumed with a warning. `on_progress`
-/// is called with 0 … 1, or empty. Throws Error as read_bag().
+/// Contents of the bag's messages, in order of receipt; read_bag() lists the messages that are
+/// used. `sink`, which must outlive the content, receives the reads and true distances.
+/// `frequency_hz` is the carrier of reads that don't state it; without it one is assumed with a
+/// warning. `on_progress` is called with 0 … 1, or empty. Throws Error as read_bag().
 BagContent sweep_bag(const std::string& path, std::optional<double> frequency_hz,
                      const BagReadSink& sink, const std::function<void(double share)>& on_progress,
                      Diagnostics& diagnostics);

@@ -15,7 +15,8 @@
 namespace tagfield {
 namespace {
 
-/// tf2 takes stamp 0 as "the latest"; so all stamps are counted from a second before the first.
+/// tf2 interprets stamp 0 as "the latest"; so all stamps are counted from a second before the
+/// first.
 class TransformClock {
  public:
   TransformClock(const std::vector<StampedTransform>& transforms,
@@ -40,7 +41,7 @@ class TransformClock {
     converted.fromNSec(static_cast<std::uint64_t>((stamp - zero_).count()));
     return converted;
   }
-  /// From the first stamp to the last, and some more.
+  /// From the first stamp to the last, with a margin.
   [[nodiscard]] ros::Duration span() const {
     // A ros::Duration holds 68 years.
     if (span_s_ > 2'000'000'000) throw Error("stamps of transforms are over 60 years apart");
@@ -74,14 +75,14 @@ RigidTransform from_message(const geometry_msgs::Transform& transform) {
   return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
 }
 
-/// The transforms of one frame to its parent, by stamp, and how many of them tf2 has.
+/// The transforms of one frame to its parent, by stamp, and how many of them were passed to tf2.
 struct Edge {
   std::vector<StampedTransform> transforms;
   std::size_t handed_over = 0;
 };
 
-/// tf2's buffer, filled no further than the stamp that is asked for: it looks for the neighbours
-/// of a stamp from the newest on, which over a whole bag would take the square of its length.
+/// tf2's buffer, filled only up to the requested stamp: it searches the neighbours of a stamp from
+/// the newest on, which over a whole bag would take time quadratic in its length.
 class RisingBuffer {
  public:
   RisingBuffer(std::vector<StampedTransform> transforms, const TransformClock& clock)
@@ -104,7 +105,8 @@ class RisingBuffer {
   [[nodiscard]] bool knows(const std::string& frame) const { return frames_.count(frame) > 0; }
   [[nodiscard]] const std::map<std::string, std::string>& parents() const { return parents_; }
 
-  /// Hands over all up to `stamp`, and of each frame the first that is not before it.
+  /// Passes on all transforms up to `stamp`, and for each frame the first one that is not before
+  /// it.
   void go_to(Time stamp) {
     for (auto& [child, edge] : edges_) {
       std::size_t& next = edge.handed_over;
@@ -138,10 +140,10 @@ class RisingBuffer {
   std::set<std::string> frames_;
 };
 
-/// Whether an antenna's pose in `fixed` comes from wheels alone, or from a map as well.
+/// Whether an antenna's pose in `fixed` is based on odometry only, or on a map as well.
 std::string source_of(const RisingBuffer& buffer, const std::string& fixed, std::string frame) {
   bool odometry = false;
-  // A loop, which tf2 refuses to follow, ends too.
+  // Terminates even for a loop, which tf2 refuses.
   for (std::size_t i = 0; i <= buffer.parents().size(); ++i) {
     if (frame == "map") return "tf";
     odometry = odometry || frame == "odom";
@@ -154,7 +156,7 @@ std::string source_of(const RisingBuffer& buffer, const std::string& fixed, std:
 
 using Counts = std::map<std::string, std::size_t>;
 
-/// Whether every antenna has its pose in half of its updates or more.
+/// Whether every antenna has a pose in at least half of its updates.
 bool suffices(const std::vector<AntennaPose>& poses, const Counts& updates) {
   Counts found;
   for (const AntennaPose& pose : poses) ++found[pose.antenna];

@@ -17,8 +17,8 @@ namespace {
 
 using ros::serialization::IStream;
 
-/// A list as ROS writes it. Its own reader makes room for as many elements as the count says, be
-/// that 4 GB, before it looks for them. Each element takes `least_bytes` or more.
+/// Reads a list in ROS' encoding. ROS' own reader allocates as many elements as the count states,
+/// even 4 GB, before it checks that they exist. Each element takes at least `least_bytes`.
 template <typename Element>
 void read_list(IStream& stream, std::vector<Element>& list, std::uint32_t least_bytes) {
   std::uint32_t count = 0;
@@ -31,7 +31,7 @@ void read_list(IStream& stream, std::vector<Element>& list, std::uint32_t least_
   for (Element& element : list) stream.next(element);
 }
 
-// The fewest bytes of each kind of element: texts of no length, and all numbers.
+// Minimum size of each kind of element: empty strings, and all numbers.
 constexpr std::uint32_t kText = 4;
 constexpr std::uint32_t kNumber = 8;
 constexpr std::uint32_t kHeader = 12 + kText;
@@ -74,16 +74,16 @@ void read_fields(IStream& stream, nav_msgs::Odometry& message) { stream.next(mes
 
 }  // namespace
 
-std::string to_string(const MessagePlace& place) {
+std::string to_string(const MessageLocation& place) {
   return fmt::format("{}: topic {}, message {}", place.file, place.topic, place.number);
 }
 
-void fail_at(const MessagePlace& place, const std::string& message) {
+void fail_at(const MessageLocation& place, const std::string& message) {
   throw Error(fmt::format("{}: {}", to_string(place), message));
 }
 
 template <typename M>
-M decode(std::vector<std::uint8_t>& bytes, const MessagePlace& place) {
+M decode(std::vector<std::uint8_t>& bytes, const MessageLocation& place) {
   M message;
   IStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   try {
@@ -100,11 +100,11 @@ M decode(std::vector<std::uint8_t>& bytes, const MessagePlace& place) {
   return message;
 }
 
-template tagfield_msgs::TagReads decode(std::vector<std::uint8_t>&, const MessagePlace&);
-template tagfield_msgs::AntennaTruth decode(std::vector<std::uint8_t>&, const MessagePlace&);
-template tagfield_msgs::TagPositions decode(std::vector<std::uint8_t>&, const MessagePlace&);
-template rfid_sensor::TagArray decode(std::vector<std::uint8_t>&, const MessagePlace&);
-template nav_msgs::Odometry decode(std::vector<std::uint8_t>&, const MessagePlace&);
-template tf2_msgs::TFMessage decode(std::vector<std::uint8_t>&, const MessagePlace&);
+template tagfield_msgs::TagReads decode(std::vector<std::uint8_t>&, const MessageLocation&);
+template tagfield_msgs::AntennaTruth decode(std::vector<std::uint8_t>&, const MessageLocation&);
+template tagfield_msgs::TagPositions decode(std::vector<std::uint8_t>&, const MessageLocation&);
+template rfid_sensor::TagArray decode(std::vector<std::uint8_t>&, const MessageLocation&);
+template nav_msgs::Odometry decode(std::vector<std::uint8_t>&, const MessageLocation&);
+template tf2_msgs::TFMessage decode(std::vector<std::uint8_t>&, const MessageLocation&);
 
 }  // namespace tagfield

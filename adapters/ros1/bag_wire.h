@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Messages of a bag from their bytes, which may be anything: no count is believed before that many
-/// elements can stand in what is left.
+/// Decoding of a bag's messages from untrusted bytes: a count is accepted only if that many
+/// elements fit in the remaining bytes.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,23 @@
 
 namespace tagfield {
 
-/// Where a message stands, for complaints.
-struct MessagePlace {
+/// Location of a message, for error messages.
+struct MessageLocation {
   std::string file;
   std::string topic;
   std::size_t number = 0;  ///< Within its topic, from 1 on.
 };
 
 /// "FILE: topic /x, message 3"
-std::string to_string(const MessagePlace& place);
+std::string to_string(const MessageLocation& place);
 
 /// Throws Error "FILE: topic /x, message 3: MESSAGE".
-[[noreturn]] void fail_at(const MessagePlace& place, const std::string& message);
+[[noreturn]] void fail_at(const MessageLocation& place, const std::string& message);
 
-/// The message of type M that all of `bytes` is: tagfield_msgs' TagReads, AntennaTruth and
-/// TagPositions, rfid_sensor's TagArray, nav_msgs' Odometry, tf2_msgs' TFMessage. Throws Error
-/// where they are too few or too many.
+/// Decodes all of `bytes` as a message of type M: tagfield_msgs' TagReads, AntennaTruth and
+/// TagPositions, rfid_sensor's TagArray, nav_msgs' Odometry, tf2_msgs' TFMessage. Throws Error if
+/// there are too few or too many bytes.
 template <typename M>
-M decode(std::vector<std::uint8_t>& bytes, const MessagePlace& place);
+M decode(std::vector<std::uint8_t>& bytes, const MessageLocation& place);
 
 }  // namespace tagfield

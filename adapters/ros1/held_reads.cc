@@ -17,7 +17,7 @@ TagRead&& with_wrapped_phase(TagRead&& read) {
   return std::move(read);
 }
 
-/// Tells what comes after so many resets.
+/// Reads the recording again and passes on what follows after that many resets.
 void tell_again(const std::string& path, const GoThrough& go_through, std::size_t resets,
                 std::size_t count, const BagReads& to) {
   const Silence silence;
@@ -32,8 +32,8 @@ void tell_again(const std::string& path, const GoThrough& go_through, std::size_
                            if (resets_left == 0 && to.on_distance) to.on_distance(distance);
                          },
                          [&] { resets_left -= resets_left > 0 ? 1 : 0; }, true};
-  Diagnostics told_before;
-  go_through(sink, to.on_progress, told_before);
+  Diagnostics reported_before;
+  go_through(sink, to.on_progress, reported_before);
   if (told == count) return;
   fail({path, 0}, fmt::format("had {} reads at first and {} when they were read again: expected a "
                               "recording that does not change",
@@ -79,7 +79,8 @@ void HeldReads::hold_no_more() {
   std::vector<RecordedUpdate>().swap(updates_);
 }
 
-UntoldReads untold(const std::string& path, const GoThrough& go_through, const HeldReads& held) {
+UnreportedReads untold(const std::string& path, const GoThrough& go_through,
+                       const HeldReads& held) {
   const std::size_t count = held.overview()->count;
   return {*held.overview(), held.has_distances(),
           [path, go_through, resets = held.resets(), count](const BagReads& to) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The reads of a recording of ROS, in memory as long as there are not too many, and else told
-/// anew.
+/// The reads of a ROS recording: in memory if there are not too many, otherwise read again on
+/// demand.
 #pragma once
 
 #include <cstddef>
@@ -15,20 +15,20 @@
 
 namespace tagfield {
 
-/// Goes through a bag of ROS 1 or a recording of ROS 2, as often as it is called.
+/// Reads through a ROS 1 bag or a ROS 2 recording each time it is called.
 using GoThrough = std::function<BagContent(
     const BagReadSink& sink, const std::function<void(double)>& on_progress, Diagnostics&)>;
 
-/// Holds reads and distances as long as each are no more than `most`; of more reads it has an
-/// overview.
+/// Holds reads and distances as long as each are no more than `most`; beyond that, only an overview
+/// of the reads.
 class HeldReads {
  public:
   explicit HeldReads(std::size_t most) : most_(most) {}
 
-  /// What goes through a recording gives reads to; this must outlive it.
+  /// The sink to pass to a GoThrough; this must outlive it.
   [[nodiscard]] BagReadSink sink();
 
-  /// Moves them to where they belong.
+  /// Moves reads and distances into the results.
   void give(BagContent& content, BagRecording& recording);
   [[nodiscard]] const std::optional<ReadOverview>& overview() const { return overview_; }
   [[nodiscard]] bool has_distances() const { return has_distances_; }
@@ -49,7 +49,7 @@ class HeldReads {
   std::optional<ReadOverview> overview_;
 };
 
-/// Of reads that are not held. `held` has an overview of them.
-UntoldReads untold(const std::string& path, const GoThrough& go_through, const HeldReads& held);
+/// Access to reads that are not held. `held` has an overview of them.
+UnreportedReads untold(const std::string& path, const GoThrough& go_through, const HeldReads& held);
 
 }  // namespace tagfield

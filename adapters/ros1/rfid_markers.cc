@@ -15,7 +15,7 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr Duration kInterval = std::chrono::milliseconds(500);
-constexpr double kTagEdge = 0.1;      // [m] larger than a label, to be seen across a hall
+constexpr double kTagEdge = 0.1;      // [m] larger than a label, to be visible across a hall
 constexpr double kArrowLength = 0.5;  // [m]
 constexpr double kArrowWidth = 0.08;  // [m]
 

@@ -12,10 +12,10 @@
 
 namespace tagfield {
 
-/// Publishes rfid/markers (visualization_msgs/MarkerArray) in frame "world" twice a simulated
-/// second: all tags as one list of cubes, coloured by the RSSI of their last read (name space
-/// "tags"); for each antenna an arrow along its x axis ("antennas") and its range as a ball
-/// ("ranges"). Only while somebody listens.
+/// Publishes rfid/markers (visualization_msgs/MarkerArray) in frame "world" twice per simulated
+/// second: all tags as one list of cubes, coloured by the RSSI of their last read (namespace
+/// "tags"); for each antenna an arrow along its x axis ("antennas") and its range as a sphere
+/// ("ranges"). Only while there are subscribers.
 class RfidMarkers final : public FieldPicture {
  public:
   explicit RfidMarkers(std::shared_ptr<RosLink> link);

@@ -16,8 +16,7 @@
 namespace tagfield {
 namespace {
 
-/// A recorder may stand still for some seconds while a simulation runs many times as fast as real
-/// time.
+/// A recorder may stall for some seconds while a simulation runs many times faster than real time.
 constexpr std::uint32_t kQueue = 10'000;
 constexpr Duration kLatchInterval = std::chrono::seconds(1);
 
@@ -83,11 +82,11 @@ std::string ros_name(const std::string& text) {
         (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
     name += allowed ? c : '_';
   }
-  // ROS names begin with a letter, except behind a slash.
+  // ROS names begin with a letter, except after a slash.
   return name.empty() ? "_" : name;
 }
 
-/// Of all tags.
+/// Topics of all tags.
 struct RfidPublisher::TagTopics {
   explicit TagTopics(RosLink& link)
       : all(link.advertise<tagfield_msgs::TagPositions>({"", "rfid/truth/tags", kQueue, true})),
@@ -97,7 +96,7 @@ struct RfidPublisher::TagTopics {
   std::shared_ptr<RosPublisher<tagfield_msgs::TagPositions>> moved;
 };
 
-/// Of one name space.
+/// Topics of one namespace.
 struct RfidPublisher::Topics {
   Topics(RosLink& link, const std::string& name_space)
       : reads(link.advertise<tagfield_msgs::TagReads>({name_space, "rfid/reads", kQueue})),
@@ -110,7 +109,7 @@ struct RfidPublisher::Topics {
   std::shared_ptr<RosPublisher<tf2_msgs::TFMessage>> tf;
 };
 
-/// Of one antenna.
+/// Topics of one antenna.
 struct RfidPublisher::AntennaTopics {
   std::shared_ptr<RosPublisher<rfid_sensor::TagArray>> data;
   Time latched = Time(-kLatchInterval);  ///< Stamp of the last message.
@@ -211,7 +210,7 @@ void RfidPublisher::on_update(const AntennaInfo& antenna, Time stamp) {
   if (topics.reads->is_heard()) {
     topics.reads->publish(reads_message(antenna, stamp, update.reads));
   }
-  // Latched, so it is made for those to come too, if not each time.
+  // Latched, so it is also generated for late subscribers, though not in each update.
   AntennaTopics& own = topics_of(antenna);
   const bool stale = stamp < own.latched || stamp >= own.latched + kLatchInterval;
   if (!stale && !own.data->is_heard()) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads, and the truth behind them, as ROS messages.
+/// Reads and their ground truth as ROS messages.
 #pragma once
 
 #include <map>
@@ -13,18 +13,18 @@
 
 namespace tagfield {
 
-/// `text` with what a ROS name can't hold replaced by '_'.
+/// `text` with characters that are invalid in ROS names replaced by '_'.
 std::string ros_name(const std::string& text);
 
-/// Publishes what it is told. The names of reads, antennas and tf are in the antenna's name space,
-/// those of tags in none.
+/// Publishes its input. Topics of reads, antennas and tf are in the antenna's namespace, those of
+/// tags in none.
 ///
 ///   ~SENSOR/data           rfid_sensor/TagArray        the published plugin's message, latched
 ///   rfid/reads             tagfield_msgs/TagReads      every update of every antenna
 ///   tf                     tf2_msgs/TFMessage          parent frame → antenna's frame
 ///   rfid/truth/antennas    tagfield_msgs/AntennaTruth  every update of every antenna
 ///   rfid/truth/tags        tagfield_msgs/TagPositions  all tags when the set changes, latched
-///   rfid/truth/tags_moved  tagfield_msgs/TagPositions  those that moved, before the reads
+///   rfid/truth/tags_moved  tagfield_msgs/TagPositions  tags that moved, before the reads
 class RfidPublisher final : public ReadListener, public PoseListener, public TruthListener {
  public:
   explicit RfidPublisher(std::shared_ptr<RosLink> link);
@@ -46,7 +46,7 @@ class RfidPublisher final : public ReadListener, public PoseListener, public Tru
   struct TagTopics;
   struct Topics;
   struct AntennaTopics;
-  /// What an antenna has read since its last update, and the truth behind it.
+  /// Reads of an antenna since its last update, and their ground truth.
   struct Update {
     std::vector<TagRead> reads;
     std::vector<double> distances_m;
@@ -66,11 +66,11 @@ class RfidPublisher final : public ReadListener, public PoseListener, public Tru
   std::map<std::string, std::unique_ptr<AntennaTopics>> by_antenna_;
   std::map<std::string, Update> updates_;  ///< By antenna.
   std::map<std::string, Tag> tags_;
-  std::vector<std::string> moved_;  ///< IDs, since tags were told last.
-  bool has_changed_ = false;        ///< Tags came or went since then.
+  std::vector<std::string> moved_;  ///< IDs, since tags were last published.
+  bool has_changed_ = false;        ///< Tags were added or removed since then.
 };
 
-/// The frame that truth and markers are told in.
+/// The frame of truth and markers.
 inline constexpr const char* kWorldFrame = "world";
 
 }  // namespace tagfield

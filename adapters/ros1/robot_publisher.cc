@@ -20,7 +20,7 @@
 namespace tagfield {
 namespace {
 
-/// Variance of what wheels on a floor don't measure: height, roll, pitch.
+/// Variance of the quantities that odometry on a floor does not measure: height, roll, pitch.
 constexpr double kFloorVariance = 1e-6;
 
 /// Rows and columns of ROS' covariances are x, y, z, roll, pitch, yaw.
@@ -48,7 +48,7 @@ void set_twist_covariance(const Eigen::Vector2d& variance, nav_msgs::Odometry& m
   message.twist.covariance[entry(5, 5)] = variance.y();
 }
 
-/// The last message of a topic that has not been taken yet. One thread gives, another takes.
+/// The last message of a topic that has not been taken yet. One thread puts, another takes.
 template <class Value>
 class Mailbox {
  public:

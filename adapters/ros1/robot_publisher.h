@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a robot and a lift tell on ROS 1, and what they are told.
+/// ROS 1 topics of a robot and a lift.
 #pragma once
 
 #include <memory>
@@ -25,12 +25,12 @@ class RobotPublisher {
   void publish(const MotionReport& motion);
   void publish(const ScanReport& scan);
   void publish_path_finished(bool finished);
-  /// Tells the frames that don't move: the laser's on the base, where there is one, and that of the
-  /// odometry in its parent.
+  /// Publishes the static frames: the laser's on the base, if there is one, and the odometry frame
+  /// in its parent.
   void publish_fixed_frames(Time now, const std::optional<RigidTransform>& X_BL,
                             const RigidTransform& X_WO);
 
-  /// The newest command since the last call. Its numbers are as they came, NaN and all.
+  /// The newest command since the last call, with its numbers as received, even NaN.
   std::optional<BodyVelocity> take_command();
 
  private:
@@ -38,7 +38,7 @@ class RobotPublisher {
   std::unique_ptr<Topics> topics_;
 };
 
-/// A lift's topics: joint_states; the height to go to.
+/// A lift's topics: joint_states; the commanded height.
 class LiftPublisher {
  public:
   LiftPublisher(const std::shared_ptr<RosLink>& link, const std::string& name_space,
@@ -49,7 +49,7 @@ class LiftPublisher {
 
   /// Position [m] and speed [m/s] of the joint.
   void publish(Time stamp, double position, double speed);
-  /// The newest position to go to [m] since the last call, as it came.
+  /// The newest commanded position [m] since the last call, as received.
   std::optional<double> take_command();
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In C++17, as all that includes messages of ROS 1: what is read here goes the same way as theirs.
+// In C++17, like all code that includes messages of ROS 1: ROS 2 messages are processed by the same
+// functions.
 #include "adapters/ros1/ros2_sweep.h"
 
 #include <fmt/format.h>
@@ -17,15 +18,15 @@ namespace {
 
 constexpr std::size_t kMostOpen = 16;
 
-/// Takes the bytes of a topic's message.
-using Take = std::function<void(std::string_view bytes, const MessagePlace& place,
+/// Processes the bytes of a topic's message.
+using Take = std::function<void(std::string_view bytes, const MessageLocation& place,
                                 BagContent& content, Diagnostics& diagnostics)>;
 
-/// Makes a message of the bytes, always the same one for its memory, and hands it on.
+/// Decodes the bytes and passes on the message, which is reused for its memory.
 template <class Message>
-Take decoded_for(void (*take)(const Message&, const MessagePlace&, BagContent&, Diagnostics&)) {
+Take decoded_for(void (*take)(const Message&, const MessageLocation&, BagContent&, Diagnostics&)) {
   const auto message = std::make_shared<Message>();
-  return [take, message](std::string_view bytes, const MessagePlace& place, BagContent& content,
+  return [take, message](std::string_view bytes, const MessageLocation& place, BagContent& content,
                          Diagnostics& diagnostics) {
     if (!ros2::from_cdr(bytes, *message)) {
       fail_at(place, fmt::format("is not a {}: its {} bytes end too early",
@@ -42,7 +43,7 @@ bool ends_in(const std::string& text, std::string_view end) {
          std::string_view(text).substr(text.size() - end.size()) == end;
 }
 
-/// How the messages of a topic are taken; null for those that are not looked at.
+/// How the messages of a topic are processed; null for ignored topics.
 Take take_of(const RecordedTopic& topic) {
   if (topic.encoding != "cdr") return nullptr;
   const std::string& type = topic.type;
@@ -62,7 +63,7 @@ Take take_of(const RecordedTopic& topic) {
   return decoded_for(&take_transforms<ros2::tf2_msgs::TFMessage>);
 }
 
-/// Goes through one file after another.
+/// Reads one file after the other.
 class Ros2Sweep {
  public:
   Ros2Sweep(const BagReadSink& sink, Diagnostics& diagnostics)
@@ -72,7 +73,7 @@ class Ros2Sweep {
                  const std::function<void(double)>& on_progress) {
     std::vector<Take> takes;
     std::vector<char> wanted;
-    std::vector<MessagePlace> places;
+    std::vector<MessageLocation> places;
     for (const RecordedTopic& topic : file.topics()) {
       takes.push_back(take_of(topic));
       wanted.push_back(takes.back() ? 1 : 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One pass over a recording of ROS 2.
+/// One pass over a ROS 2 recording.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +15,16 @@
 
 namespace tagfield {
 
-/// The files of a recording of ROS 2; few of them stay open, since to open one may take as long as
-/// to read it.
+/// The files of a ROS 2 recording; only a few stay open, since opening one may take as long as
+/// reading it.
 class Ros2Files {
  public:
-  /// An MCAP file, a database of rosbag2, or a folder of them. Throws Error where there are none.
+  /// An MCAP file, a rosbag2 database, or a folder of them. Throws Error if there are none.
   Ros2Files(const std::string& path, Diagnostics& diagnostics);
 
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] std::size_t size() const { return files_.size(); }
-  /// Throws Error where the file is broken, or this program was built without its kind.
+  /// Throws Error if the file is corrupt, or this program was built without support for its kind.
   std::shared_ptr<RecordedFile> open(std::size_t index, Diagnostics& diagnostics);
   [[nodiscard]] const std::string& path(std::size_t index) const { return files_[index]; }
 
@@ -34,8 +34,8 @@ class Ros2Files {
   std::vector<std::shared_ptr<RecordedFile>> open_;
 };
 
-/// As sweep_bag(), by the types of ROS 2: tagfield_msgs' TagReads, AntennaTruth and TagPositions,
-/// tf2_msgs' TFMessage, nav_msgs' Odometry.
+/// As sweep_bag(), with the message types of ROS 2: tagfield_msgs' TagReads, AntennaTruth and
+/// TagPositions, tf2_msgs' TFMessage, nav_msgs' Odometry.
 BagContent sweep_ros2(Ros2Files& files, const BagReadSink& sink,
                       const std::function<void(double share)>& on_progress,
                       Diagnostics& diagnostics);

@@ -76,10 +76,10 @@ void register_publisher_again(const ros::Publisher& publisher, const std::string
   ros::master::execute("registerPublisher", arguments, result, payload, false);
 }
 
-/// /clock, where nobody else in this process tells it.
+/// /clock, if no other code in this process publishes it.
 class RosLink::Clock {
  public:
-  /// Called with a master there.
+  /// Called when a master is available.
   void connect() {
     if (!decided_) {
       alone_ = !advertised_here("", "/clock");
@@ -117,7 +117,8 @@ class RosLink::Clock {
 };
 
 std::shared_ptr<RosLink> RosLink::shared() {
-  // ROS is one node a process whoever asks, hence one link. It is not kept beyond its users.
+  // ROS has one node per process for all its users, hence one link. It is not kept longer than its
+  // users.
   static std::mutex mutex;
   static std::weak_ptr<RosLink> known;
   const std::lock_guard lock(mutex);
@@ -144,7 +145,7 @@ RosLink::RosLink() : clock_(std::make_unique<Clock>()) {
   changed_.wait_for(lock, kFirstLook, [this] { return looked_; });
 }
 
-// ROS itself stays up: it can't be started twice in a process, and another plugin may come.
+// ROS itself keeps running: it can't be started twice in a process, and another plugin may need it.
 RosLink::~RosLink() { end_threads(); }
 
 void RosLink::end_threads() {
@@ -162,7 +163,7 @@ void RosLink::initialize() {
   fault_ = fault_of_master_address();
   if (!fault_.empty()) return;
   setenv("ROS_MASTER_URI", "http://localhost:11311", 0);
-  // SIGINT is Gazebo's.
+  // SIGINT is handled by Gazebo.
   ros::init(ros::M_string{}, "gazebo", ros::init_options::NoSigintHandler);
   ros::master::setRetryTimeout(ros::WallDuration(kRetrySeconds));
 }
@@ -201,7 +202,7 @@ void RosLink::look_at_master() {
   const std::int64_t master = master_process();
   connected_ = master != 0;
   if (!connected_) {
-    // The next one to answer knows nothing of us, even if it has the same process ID.
+    // The next master to answer has no registrations of ours, even if it has the same process ID.
     master_ = 0;
     return;
   }
@@ -232,7 +233,7 @@ void RosLink::connect_all() {
     try {
       held->connect();
     } catch (const std::exception& error) {
-      // A topic that can't be opened must not take the others along.
+      // A topic that can't be opened must not affect the others.
       ROS_ERROR("Tagfield: %s", error.what());
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// This process' link to the ROS 1 master, from inside a program that must go on without one.
+/// This process' connection to the ROS 1 master, for programs that must keep running without one.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -22,12 +22,12 @@
 
 namespace tagfield {
 
-/// Simulated time as ROS says it. Throws Error if it is negative or beyond 2106, which ros::Time
-/// can't express.
+/// Simulated time as ROS time. Throws Error if it is negative or after 2106, which ros::Time can't
+/// express.
 ros::Time to_ros(Time time);
 Time from_ros(const ros::Time& time);
 
-/// Whether this process' node publishes `topic` (any resolvable name) already, by whomever.
+/// Whether this process' node already publishes `topic` (any resolvable name), through any code.
 bool advertised_here(const std::string& name_space, const std::string& topic);
 
 /// One topic of a RosLink.
@@ -37,24 +37,24 @@ class RosEndpoint {
   virtual ~RosEndpoint() = default;
   RosEndpoint(const RosEndpoint&) = delete;
   RosEndpoint& operator=(const RosEndpoint&) = delete;
-  /// Called by RosLink with a master there: for the first time, or again for a new master.
+  /// Called by RosLink when a master is available: for the first time, or again for a new master.
   virtual void connect() = 0;
 };
 
 struct RosTopic {
   std::string name_space;  ///< "" for the process' own.
-  std::string name;        ///< Relative or absolute; private ones ("~x") by the name space.
+  std::string name;        ///< Relative or absolute; private ones ("~x") through the namespace.
   std::uint32_t queue = 1000;
   bool latched = false;
-  /// To stay silent if this process' node publishes the topic already.
+  /// Publish nothing if this process' node publishes the topic already.
   bool alone = false;
 };
 
-/// Tells a new master that this process publishes `topic`, without disturbing whom it is connected
-/// to already.
+/// Registers this process as publisher of `topic` with a new master, without disturbing existing
+/// connections.
 void register_publisher_again(const ros::Publisher& publisher, const std::string& data_type);
 
-/// A topic to publish on. Messages are dropped while there never was a master.
+/// A published topic. Messages are dropped until there is a master for the first time.
 template <class Message>
 class RosPublisher final : public RosEndpoint {
  public:
@@ -65,7 +65,7 @@ class RosPublisher final : public RosEndpoint {
     if (topic_.latched) latest_ = message;
     if (publisher_) publisher_.publish(message);
   }
-  /// Whether anybody listens, so that a large message is worth making.
+  /// Whether there are subscribers, so that a large message is worth generating.
   [[nodiscard]] bool is_heard() const {
     const std::lock_guard lock(mutex_);
     return publisher_ && publisher_.getNumSubscribers() > 0;
@@ -97,7 +97,7 @@ class RosPublisher final : public RosEndpoint {
   std::optional<Message> latest_;  ///< Of a latched topic.
 };
 
-/// A topic to hear. The callback runs on the link's own thread.
+/// A subscribed topic. The callback runs on the link's own thread.
 template <class Message>
 class RosSubscriber final : public RosEndpoint {
  public:
@@ -123,24 +123,24 @@ class RosSubscriber final : public RosEndpoint {
   ros::Subscriber subscriber_;
 };
 
-/// Looks after the master on a thread of its own: topics open when one appears, and open anew when
-/// another takes its place. Nothing but that thread waits for a master, the first look excepted,
-/// and nothing ends the process. Initializes ROS as node "gazebo" unless somebody else (gazebo_ros)
-/// did.
+/// Watches the master on a separate thread: opens topics when one appears, and opens them again
+/// when another replaces it. Except for the first check, only that thread waits for a master, and
+/// nothing ends the process. Initializes ROS as node "gazebo" unless someone else (gazebo_ros) has
+/// done so.
 class RosLink {
  public:
-  /// The process' link: ROS has one node in a process, so there is one link, which lives as long as
-  /// anybody holds it. Waits up to a second for the first look at the master. Never throws: where
-  /// ROS can't be initialized or a thread can't be started, `fault()` says why and all publishing
-  /// is void.
+  /// The process' link: ROS has one node per process, so there is one link, which lives as long as
+  /// there are references to it. Waits up to a second for the first check of the master. Never
+  /// throws: if ROS can't be initialized or a thread can't be started, `fault()` states why and
+  /// publishing has no effect.
   static std::shared_ptr<RosLink> shared();
   ~RosLink();
   RosLink(const RosLink&) = delete;
   RosLink& operator=(const RosLink&) = delete;
 
-  /// Why there will be no ROS at all, or "".
+  /// Why ROS is unavailable, or "".
   [[nodiscard]] const std::string& fault() const { return fault_; }
-  /// Whether a master answered at the last look.
+  /// Whether a master answered at the last check.
   [[nodiscard]] bool connected() const { return connected_; }
 
   template <class Message>
@@ -158,8 +158,8 @@ class RosLink {
     return endpoint;
   }
 
-  /// Tells simulated time; to be called in each step, by any number of callers. Publishes /clock at
-  /// 100 Hz of simulated time and sets /use_sim_time, unless somebody else in this process does.
+  /// Sets simulated time; to be called in each step, by any number of callers. Publishes /clock at
+  /// 100 Hz of simulated time and sets /use_sim_time, unless other code in this process does.
   void advance_clock(Time now);
 
  private:
@@ -182,13 +182,13 @@ class RosLink {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_ = false;
-  bool looked_ = false;  ///< At the master, at least once.
+  bool looked_ = false;  ///< The master was checked at least once.
   std::vector<std::weak_ptr<RosEndpoint>> endpoints_;
   std::vector<std::weak_ptr<RosEndpoint>> fresh_;  ///< Not connected yet.
 
   ros::CallbackQueue callbacks_;
   std::unique_ptr<Clock> clock_;
-  // Not std::jthread, which those who include this as C++17 don't know.
+  // Not std::jthread, as this header is included by C++17 code.
   std::thread watcher_;
   std::thread hearer_;
 };

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Keeps ROS's libraries from printing.
+/// Suppression of printing by ROS' libraries.
 #pragma once
 
 #include <console_bridge/console.h>
 
 namespace tagfield {
 
-/// rosbag and tf2 print their complaints; here they come as exceptions or are looked for.
+/// rosbag and tf2 print their errors; here they are caught as exceptions or checked for.
 class Silence {
  public:
   Silence() { console_bridge::noOutputHandler(); }

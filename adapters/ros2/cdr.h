@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// CDR, the bytes of ROS 2 messages (OMG DDSI-RTPS, XCDR version 1, little endian): each number is
-/// aligned to its own size, texts and lists have their length in front.
+/// CDR, the encoding of ROS 2 messages (OMG DDSI-RTPS, XCDR version 1, little endian): each number
+/// is aligned to its own size, strings and sequences are preceded by their length.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace tagfield::ros2 {
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "CDR is written as the machine has it");
 
-/// "CDR, little endian", in front of each message.
+/// Encapsulation header of each message: CDR, little endian.
 inline constexpr std::string_view kCdrHeader{"\0\1\0\0", 4};
 
 /// Appends values to a message's bytes.
@@ -43,11 +43,11 @@ class CdrWriter {
   std::string bytes_;
 };
 
-/// Takes values from a message's bytes, which nobody has looked at yet. Once they don't hold what
-/// is asked for, all further values are 0 and is_whole() is false.
+/// Extracts values from the untrusted bytes of a message. Once a requested value is not available,
+/// all further values are 0 and is_whole() is false.
 class CdrReader {
  public:
-  /// Of little endian bytes only; others are not whole.
+  /// Supports little endian only; is_whole() is false for others.
   explicit CdrReader(std::string_view bytes) {
     is_whole_ = bytes.substr(0, kCdrHeader.size()) == kCdrHeader;
     if (is_whole_) rest_ = bytes.substr(kCdrHeader.size());
@@ -67,7 +67,7 @@ class CdrReader {
     at_ += size;
     return rest_.substr(at_ - size, size);
   }
-  /// A list's length: no more than there are bytes left.
+  /// Length of a sequence: no more than the number of remaining bytes.
   std::size_t take_length() {
     const auto length = take<std::uint32_t>();
     return require(length) ? length : 0;
@@ -117,7 +117,7 @@ std::enable_if_t<std::is_arithmetic_v<Number>> read(CdrReader& cdr, Number& numb
   }
 }
 
-/// Its length counts a NUL at its end.
+/// The length includes a trailing NUL.
 inline void read(CdrReader& cdr, std::string& text) {
   const std::string_view bytes = cdr.take_bytes(cdr.take_length());
   if (bytes.empty() || bytes.back() != '\0') {
@@ -138,13 +138,13 @@ void read(CdrReader& cdr, std::vector<T>& values) {
   const std::size_t length = cdr.take_length();
   std::size_t count = 0;
   while (cdr.is_whole() && count < length) {
-    if (count == values.size()) values.emplace_back();  // Else one from before, with its memory.
+    if (count == values.size()) values.emplace_back();  // Otherwise reuses an element.
     read(cdr, values[count++]);
   }
   values.resize(count);
 }
 
-/// A message's bytes.
+/// Encodes a message.
 template <class Message>
 std::string to_cdr(const Message& message) {
   CdrWriter cdr;
@@ -152,7 +152,7 @@ std::string to_cdr(const Message& message) {
   return cdr.bytes();
 }
 
-/// Whether `bytes` are such a message, which `message` then is.
+/// Decodes `bytes` into `message`; whether they are such a message.
 template <class Message>
 bool from_cdr(std::string_view bytes, Message& message) {
   CdrReader cdr(bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of dds_sink.cc, in builds without DDS.
+// Replaces dds_sink.cc in builds without DDS.
 #include "adapters/ros2/dds_sink.h"
 #include "tagfield/base/error.h"
 

@@ -24,10 +24,10 @@ namespace {
 
 constexpr dds_duration_t kMostBlocking = DDS_SECS(1);
 constexpr dds_duration_t kMostWaitAtEnd = DDS_SECS(3);
-constexpr std::uint32_t kLastDomain = 232;  // Those above have no ports.
+constexpr std::uint32_t kLastDomain = 232;  // Domains above have no ports.
 constexpr std::int32_t kDepth = 1000;       // Messages kept for slow readers of a reliable topic.
 
-/// Deleted with all that belongs to it.
+/// A DDS entity, deleted together with its children.
 class Entity {
  public:
   Entity(dds_entity_t handle, const std::string& what) : handle_(handle) {
@@ -55,7 +55,7 @@ Qos with_user_data(const std::string& text) {
   return qos;
 }
 
-/// As rmw writes: XCDR1 is all that ROS 2 reads.
+/// As in rmw: ROS 2 reads XCDR1 only.
 Qos writer_qos(Delivery delivery, const std::string& type_hash) {
   Qos qos = with_user_data(fmt::format("typehash={};", type_hash));
   const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;
@@ -80,14 +80,14 @@ rmw_dds_common::Gid gid_of(dds_entity_t entity) {
   return gid;
 }
 
-/// What the library has to say while it lives goes here, and not to the standard error.
+/// Captures the library's log messages during its lifetime, instead of standard error.
 class Overheard {
  public:
   Overheard() { libdds().set_log_sink(&Overheard::hear, &text_); }
   ~Overheard() { libdds().set_log_sink(nullptr, nullptr); }
   Overheard(const Overheard&) = delete;
   Overheard& operator=(const Overheard&) = delete;
-  /// Its first line, or "".
+  /// The first line, or "".
   [[nodiscard]] std::string line() const { return text_.substr(0, text_.find('\n')); }
 
  private:
@@ -97,8 +97,8 @@ class Overheard {
   std::string text_;
 };
 
-/// A domain that this process has set up. It goes with the last that takes part in it, which may
-/// be somebody else.
+/// A domain created by this process. It is deleted with its last participant, which may belong to
+/// other code.
 class Domain {
  public:
   Domain(std::uint32_t id, dds_entity_t handle) : id_(id), handle_(handle) {}
@@ -110,7 +110,7 @@ class Domain {
 
  private:
   std::uint32_t id_;
-  dds_entity_t handle_;  // Not positive where others have set it up.
+  dds_entity_t handle_;  // Not positive if other code created it.
 };
 
 Error no_network(std::uint32_t domain, const Overheard& overheard) {
@@ -119,7 +119,8 @@ Error no_network(std::uint32_t domain, const Overheard& overheard) {
       domain, overheard.line()));
 }
 
-/// As the environment says. Cyclone's own CYCLONEDDS_URI goes before ROS 2's variables.
+/// Creates a domain as configured by the environment. Cyclone's own CYCLONEDDS_URI takes precedence
+/// over ROS 2's variables.
 std::unique_ptr<Domain> set_up(std::uint32_t domain) {
   if (domain > kLastDomain) {
     throw Error(fmt::format("ROS 2: domain {}: expected 0 to {}", domain, kLastDomain));
@@ -129,12 +130,12 @@ std::unique_ptr<Domain> set_up(std::uint32_t domain) {
     settings.append(settings.empty() ? "" : ",").append(own);
   const Overheard overheard;
   const dds_entity_t handle = libdds().create_domain(domain, settings.c_str());
-  // A process has a domain once: who was there before us has set it up.
+  // A process has each domain once: earlier code has created it already.
   if (handle < 0 && handle != DDS_RETCODE_PRECONDITION_NOT_MET) throw no_network(domain, overheard);
   return std::make_unique<Domain>(domain, handle);
 }
 
-/// With what shows it as a part of ROS 2.
+/// Creates a participant with the data that identify it as part of ROS 2.
 Entity join(std::uint32_t domain) {
   const Overheard overheard;
   const dds_entity_t participant =
@@ -148,9 +149,9 @@ struct Reader {
   Entity reader;
 };
 
-/// Velocities on a topic, in the types in which anybody publishes them; before that as a Twist. A
-/// topic of two types is one that `ros2 topic echo` and rosbag2 refuse, so none has both for
-/// nothing.
+/// Readers of velocities on a topic, for the types that are being published; before any is, for
+/// Twist. `ros2 topic echo` and rosbag2 refuse topics with two types, so there are only readers for
+/// types in use.
 struct TwistReaders {
   std::string topic;  ///< "rt/cmd_vel"
   Entity publications;
@@ -163,7 +164,7 @@ struct TwistReaders {
 constexpr std::string_view kPlainType = "geometry_msgs::msg::dds_::Twist_";
 constexpr std::string_view kStampedType = "geometry_msgs::msg::dds_::TwistStamped_";
 
-/// Looks for new publishers of the topic; whether there was one.
+/// Checks for new publishers of the topic; returns whether there was one.
 bool see_publishers(TwistReaders& twists) {
   constexpr std::size_t kMost = 16;
   bool seen = false;
@@ -182,7 +183,7 @@ bool see_publishers(TwistReaders& twists) {
   return seen;
 }
 
-/// Into a struct of the topic's type; false without a new one.
+/// Takes a message into a struct of the topic's type; false if there is no new one.
 bool take_one(const std::optional<Reader>& reader, void* into) {
   if (!reader) return false;
   dds_sample_info_t info{};
@@ -207,7 +208,7 @@ const bool kHasDds = true;
 struct DdsSink::Impl {
   Impl(std::uint32_t id, std::string name)
       : node_name(std::move(name)), domain(set_up(id)), participant(join(id)) {
-    // Without the prefix that topics of nodes have.
+    // Without the prefix of the nodes' topics.
     discovery.emplace(make_writer("ros_discovery_info", Delivery::kLatched,
                                   type_of(rmw_dds_common::ParticipantEntitiesInfo{})));
     tell_graph();
@@ -224,7 +225,7 @@ struct DdsSink::Impl {
     return {std::move(made), std::move(writer), dds_type};
   }
 
-  /// Shows this as a node with its writers; all others in the graph do the same.
+  /// Announces this as a node with its writers in the graph, as all nodes do.
   void tell_graph() {
     rmw_dds_common::NodeEntitiesInfo node;
     node.node_namespace = "/";
@@ -243,7 +244,7 @@ struct DdsSink::Impl {
     Entity made(libdds().create_topic(participant.get(), dds_types().at(type.name).descriptor,
                                       topic.c_str(), nullptr, nullptr),
                 topic);
-    // Best effort hears reliable writers too, and only the newest command counts.
+    // Best-effort readers also receive from reliable writers, and only the newest command counts.
     const Qos qos = with_user_data(fmt::format("typehash={};", type.hash));
     libdds().qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
     libdds().qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
@@ -251,7 +252,7 @@ struct DdsSink::Impl {
     return {std::move(made), std::move(reader)};
   }
 
-  /// Reads a topic's velocities in the types that were seen.
+  /// Creates readers of a topic's velocities for the types that were seen.
   void read_seen_types(TwistReaders& twists) {
     const bool wants_plain = twists.plain_seen || !twists.stamped_seen;
     if (wants_plain == twists.plain.has_value() &&
@@ -271,7 +272,7 @@ struct DdsSink::Impl {
   static void write(const Writer& writer, const void* message) {
     writer.type.with_struct(message, [&](const void* data) {
       const dds_return_t result = libdds().write(writer.writer.get(), data);
-      // A reader that stands still must not stop the run: it loses what it has no room for.
+      // A stalled reader must not stop the run: it loses messages once its queue is full.
       if (result < 0 && result != DDS_RETCODE_TIMEOUT) {
         throw Error(fmt::format("ROS 2: can't send: {}", libdds().strretcode(-result)));
       }

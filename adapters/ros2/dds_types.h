@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// ROS 2 messages as Cyclone DDS takes them.
+/// ROS 2 message types for Cyclone DDS.
 #pragma once
 
 #include <dds/dds.h>
@@ -13,7 +13,7 @@ namespace tagfield::ros2 {
 
 struct DdsType {
   const dds_topic_descriptor_t* descriptor = nullptr;
-  /// Hands a message of ours to `use` as the struct that the descriptor describes.
+  /// Passes one of our messages to `use` as the struct that the descriptor describes.
   void (*with_struct)(const void* message, const std::function<void(const void*)>& use) = nullptr;
 };
 

@@ -11,7 +11,8 @@
 namespace tagfield::ros2 {
 namespace {
 
-/// Programs on one machine that find one another without multicast. All have a port in each domain.
+/// Maximum number of programs on one machine that can find one another without multicast. Each has
+/// a port in each domain.
 constexpr int kLastParticipant = 60;
 
 std::string environment(const char* name) {
@@ -74,7 +75,7 @@ std::string cyclone_settings(const Discovery& discovery) {
   for (const std::string& peer : discovery.peers) {
     peers += fmt::format("<Peer address=\"{}\"/>", peer);
   }
-  // With an index a program has known ports, where those without multicast look for it.
+  // With an index a program has well-known ports, where programs without multicast look for it.
   return fmt::format(
       "<CycloneDDS><Domain>{}<Discovery><ParticipantIndex>auto</ParticipantIndex>"
       "<MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex><Peers>{}</Peers></Discovery></Domain>"

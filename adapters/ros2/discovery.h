@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How nodes of ROS 2 find one another, as the environment says.
+/// Discovery of ROS 2 nodes, as configured by the environment.
 #pragma once
 
 #include <string>
@@ -8,24 +8,24 @@
 
 namespace tagfield::ros2 {
 
-/// Where other nodes are looked for, as ROS 2 has it from Iron on.
+/// Where to look for other nodes, as in ROS 2 from Iron on.
 enum class DiscoveryRange {
-  kSubnet,        ///< On all machines that multicast reaches.
-  kLocalhost,     ///< On this machine alone.
-  kSystemDefault  ///< As the middleware's own settings say.
+  kSubnet,        ///< On all machines reachable by multicast.
+  kLocalhost,     ///< On this machine only.
+  kSystemDefault  ///< As in the middleware's own settings.
 };
 
 struct Discovery {
   DiscoveryRange range = DiscoveryRange::kSubnet;
-  std::vector<std::string> peers;  ///< Addresses of machines that are asked one by one, too.
+  std::vector<std::string> peers;  ///< Addresses of machines that are also contacted by unicast.
 };
 
-/// ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS; before both goes ROS_LOCALHOST_ONLY, as up
-/// to Humble. Throws Error for values that ROS 2 does not know, and for the range OFF, with which
-/// nobody would hear anything.
+/// Settings from ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS; ROS_LOCALHOST_ONLY, used up to
+/// Humble, overrides both. Throws Error for values unknown to ROS 2, and for the range OFF, with
+/// which nobody would receive anything.
 Discovery discovery_of_environment();
 
-/// Cyclone DDS's settings for it (XML), "" where it is left to its own.
+/// Corresponding settings of Cyclone DDS (XML), "" for its defaults.
 std::string cyclone_settings(const Discovery& discovery);
 
 }  // namespace tagfield::ros2

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Domains of ROS 2.
+/// ROS 2 domains.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@ namespace tagfield::ros2 {
 
 inline constexpr double kLastDomain = 232.0;
 
-/// The domain that `text` says. Throws Error that names `place` unless it is a whole number from 0
-/// to kLastDomain.
+/// The domain in `text`. Throws Error that names `place` unless it is a whole number from 0 to
+/// kLastDomain.
 std::uint32_t domain_in(const std::string& text, const std::string& place);
 
-/// ROS_DOMAIN_ID of the environment, as all of ROS 2 has it; 0 where it is not set.
+/// ROS_DOMAIN_ID of the environment, as used by ROS 2; 0 if not set.
 std::uint32_t domain_of_environment();
 
 }  // namespace tagfield::ros2

@@ -12,8 +12,8 @@
 namespace tagfield::ros2 {
 namespace {
 
-/// As rosbag2 has it in YAML, by the numbers of rmw's enumerations, so that a replay offers the
-/// topic as it was.
+/// QoS in rosbag2's YAML format, with the values of rmw's enumerations, so that a replay offers the
+/// topic with the same QoS.
 std::string offered_qos(Delivery delivery) {
   constexpr const char* kForever = "{sec: 9223372036, nsec: 854775807}";
   return fmt::format(
@@ -59,7 +59,7 @@ std::size_t McapSink::advertise(const Ros2Topic& topic, const Ros2Type& type) {
 }
 
 void McapSink::publish(std::size_t topic, Time stamp, const void* message) {
-  // Times of MCAP begin at 0, as those of a simulation do.
+  // MCAP times can't be negative, and simulations begin at 0.
   const auto time_ns =
       static_cast<std::uint64_t>(std::max<Duration::rep>(stamp.time_since_epoch().count(), 0));
   writer_.write(topics_.at(topic).channel, time_ns, time_ns,

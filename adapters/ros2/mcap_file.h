@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// ROS 2 messages into an MCAP file, as rosbag2 would record them.
+/// ROS 2 messages written to an MCAP file, as rosbag2 would record them.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace tagfield::ros2 {
 
-/// Stamps are both log and publish times. The file appears with finish(); a run that is cut off
+/// Stamps are used as both log and publish times. The file appears on finish(); an interrupted run
 /// leaves PATH.PID.partial. Throws Error if the file can't be written, or if this program was built
 /// without MCAP.
 std::shared_ptr<MessageSink> mcap_file(const std::string& path);

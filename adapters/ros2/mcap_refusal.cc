@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of mcap_sink.cc, in builds without MCAP.
+// Replaces mcap_file.cc in builds without MCAP.
 #include "adapters/ros2/mcap_file.h"
 #include "tagfield/base/error.h"
 

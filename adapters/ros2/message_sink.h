@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where ROS 2 messages go: into DDS, or a file.
+/// Sinks of ROS 2 messages: DDS, or a file.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace tagfield::ros2 {
 
-/// How a topic is delivered, as rmw's profiles are.
+/// Quality of service of a topic, like rmw's profiles.
 enum class Delivery {
-  kReliable,    ///< Each message, to those who listen. Best-effort readers hear them too.
-  kBestEffort,  ///< The newest, as of a clock.
-  kLatched      ///< The last one also to those who come later (transient local).
+  kReliable,    ///< Each message, to current subscribers, including best-effort ones.
+  kBestEffort,  ///< Only the newest, as for a clock.
+  kLatched      ///< The last message also to late subscribers (transient local).
 };
 
 struct Ros2Topic {
@@ -23,7 +23,7 @@ struct Ros2Topic {
   Delivery delivery = Delivery::kReliable;
 };
 
-/// Takes messages of all types. Calls come from one thread at a time.
+/// Accepts messages of all types. To be called by one thread at a time.
 class MessageSink {
  public:
   MessageSink() = default;
@@ -31,11 +31,11 @@ class MessageSink {
   MessageSink(const MessageSink&) = delete;
   MessageSink& operator=(const MessageSink&) = delete;
 
-  /// Gives the topic's number.
+  /// Returns the topic's number.
   virtual std::size_t advertise(const Ros2Topic& topic, const Ros2Type& type) = 0;
-  /// `message` is of the topic's type.
+  /// `message` points to one of the topic's type.
   virtual void publish(std::size_t topic, Time stamp, const void* message) = 0;
-  /// No more messages come.
+  /// To be called after the last message.
   virtual void finish() {}
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A robot of Gazebo's as ROS 2 messages.
+/// A Gazebo robot's topics as ROS 2 messages.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 namespace tagfield::ros2 {
 
 /// odom, ground_truth/odom and scan in the robot's namespace, /tf and /tf_static; names and
-/// meanings as in ROS 1, but for Gazebo's world, which is the map.
+/// meanings as in ROS 1, except that Gazebo's world frame is named map.
 class RobotTopics {
  public:
   RobotTopics(std::shared_ptr<MessageSink> sink, RobotNames names);
@@ -20,7 +20,8 @@ class RobotTopics {
   void publish(const OdometryReport& odometry) const;
   void publish(const MotionReport& motion) const;
   void publish(const ScanReport& scan) const;
-  /// The laser's on the base, where there is one, and that of the odometry in its parent.
+  /// Publishes the laser's frame on the base, if there is one, and the odometry frame in its
+  /// parent.
   void publish_fixed_frames(Time now, const std::optional<RigidTransform>& X_BL,
                             const RigidTransform& X_WO) const;
 

@@ -73,7 +73,7 @@ const Ros2Navigation::Scans& Ros2Navigation::scans_of(const std::string& robot) 
 void Ros2Navigation::on_scan(const std::string& robot, const PlanarPose& pose_M,
                              const LaserScan& scan) {
   const Scans& scans = scans_of(robot);
-  outlet_->tell_time(scan.stamp);  // Scans may come more often than updates.
+  outlet_->tell_time(scan.stamp);  // Scans may be more frequent than updates.
   outlet_->tell_frame(
       scan.stamp, frame_message(scan.stamp, kMapFrame, robot + "/base_link", to_transform(pose_M)));
   scans.publish(scan.stamp, scan_message(scan, robot + "/laser", laser_.rate_hz));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Maps and laser scans as ROS 2 messages, and those of robots that find their way by themselves.
+/// Maps and laser scans as ROS 2 messages, and an outlet for robots that navigate autonomously.
 #pragma once
 
 #include <map>
@@ -13,19 +13,19 @@
 
 namespace tagfield::ros2 {
 
-/// +inf where a beam met nothing, -inf where it met something too near (REP-117).
+/// +inf for a beam without return, -inf for one too near (REP-117).
 sensor_msgs::LaserScan scan_message(const LaserScan& scan, const std::string& frame,
                                     double rate_hz);
 
-/// In the map's frame, as of time 0.
+/// The grid in the map's frame, stamped 0.
 nav_msgs::OccupancyGrid grid_message(const OccupancyGrid& grid);
 
-/// Tells of robots that find their way by themselves: /map once, latched; of each robot
-/// /ROBOT/scan, in /tf its frame ROBOT/base_link in the map at the scans' stamps, as it believes,
-/// and in /tf_static ROBOT/laser on it.
+/// Publishes for robots that navigate autonomously: /map once, latched; for each robot /ROBOT/scan,
+/// in /tf its frame ROBOT/base_link in the map at the scans' stamps, as it believes, and in
+/// /tf_static ROBOT/laser on it.
 class Ros2Navigation : public NavigationListener {
  public:
-  /// `outlet` tells the frames.
+  /// `outlet` publishes the frames.
   Ros2Navigation(std::shared_ptr<MessageSink> sink, std::shared_ptr<Ros2Outlet> outlet,
                  const LaserParameters& laser);
 

@@ -12,7 +12,7 @@ namespace tagfield::ros2 {
 namespace {
 
 constexpr Duration kMarkerInterval = std::chrono::milliseconds(500);
-constexpr double kTagEdge_m = 0.1;  // Larger than a label, to be seen across a hall.
+constexpr double kTagEdge_m = 0.1;  // Larger than a label, to be visible across a hall.
 constexpr double kArrowLength_m = 0.5;
 constexpr double kArrowWidth_m = 0.08;
 
@@ -33,7 +33,7 @@ tagfield_msgs::TagPosition position_message(const TagPosition& tag) {
   return {tag.tag, point_message(tag.p_WT)};
 }
 
-/// From the way between two poses, in the robot's own frame (REP-103).
+/// Mean velocity between two poses, in the robot's own frame (REP-103).
 geometry_msgs::Twist twist_between(const AntennaPose& before, const AntennaPose& now) {
   const double seconds = to_seconds(now.stamp - before.stamp);
   if (!(seconds > 0.0)) return {};
@@ -43,7 +43,7 @@ geometry_msgs::Twist twist_between(const AntennaPose& before, const AntennaPose&
           vector_message(turn.axis() * turn.angle() / seconds)};
 }
 
-/// Whenever that holds.
+/// Whether the frames are equal, regardless of their stamps.
 bool is_same(const geometry_msgs::TransformStamped& a, const geometry_msgs::TransformStamped& b) {
   return a.header.frame_id == b.header.frame_id && to_cdr(a.transform) == to_cdr(b.transform);
 }
@@ -90,7 +90,7 @@ Marker clear_all(Time stamp) {
 std::string topic_token(const std::string& text) {
   const char first = text.empty() ? '_' : text.front();
   const bool is_letter = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
-  // No digit may be at the front, and a '_' there would hide the topic.
+  // A token can't begin with a digit, and a leading '_' would hide the topic.
   std::string token = is_letter ? "" : "n";
   for (const char c : text) {
     const bool allowed =
@@ -104,7 +104,7 @@ std::string frame_in_ros2(const std::string& frame) {
   return frame.empty() || frame == "world" ? kMapFrame : frame;
 }
 
-Ros2Outlet::Ros2Outlet(std::shared_ptr<MessageSink> sink, bool tells_clock)
+Ros2Outlet::Ros2Outlet(std::shared_ptr<MessageSink> sink, bool reports_clock)
     : sink_(std::move(sink)),
       tf_(*sink_, {"/tf"}),
       static_tf_(*sink_, {"/tf_static", Delivery::kLatched}),
@@ -112,12 +112,12 @@ Ros2Outlet::Ros2Outlet(std::shared_ptr<MessageSink> sink, bool tells_clock)
       antennas_(*sink_, {"/rfid/truth/antennas"}),
       tags_(*sink_, {"/rfid/truth/tags", Delivery::kLatched}),
       moved_tags_(*sink_, {"/rfid/truth/tags_moved"}) {
-  if (tells_clock) clock_.emplace(*sink_, Ros2Topic{"/clock", Delivery::kBestEffort});
+  if (reports_clock) clock_.emplace(*sink_, Ros2Topic{"/clock", Delivery::kBestEffort});
 }
 
 void Ros2Outlet::tell_time(Time stamp) {
-  if (!clock_ || (told_time_ && stamp <= *told_time_)) return;
-  told_time_ = stamp;
+  if (!clock_ || (stated_time_ && stamp <= *stated_time_)) return;
+  stated_time_ = stamp;
   clock_->publish(stamp, {to_message(stamp)});
 }
 
@@ -129,7 +129,7 @@ void Ros2Outlet::tell_fixed_frame(Time stamp, const geometry_msgs::TransformStam
   const auto [told, is_new] = fixed_.emplace(frame.child_frame_id, frame);
   if (!is_new && is_same(told->second, frame)) return;
   told->second = frame;
-  // A latched topic keeps its last message alone.
+  // A latched topic keeps only its last message.
   tf2_msgs::TFMessage all;
   for (const auto& [name, fixed] : fixed_) all.transforms.push_back(fixed);
   static_tf_.publish(stamp, all);
@@ -172,7 +172,7 @@ void Ros2Outlet::mount(const std::string& robot, const std::set<std::string>& an
   mount_ = {robot, antennas, base_frame};
 }
 
-/// Where it is on its robot, which is no secret: its mount, and how high its lift is.
+/// Publishes its pose on the robot, which is known: its mount, and the height of its lift.
 void Ros2Outlet::tell_mounted(const AntennaInfo& antenna, const AntennaPose& pose) {
   const auto robot = robots_.find(mount_.robot);
   if (robot == robots_.end() || !robot->second.last || robot->second.last->stamp != pose.stamp) {
@@ -245,7 +245,7 @@ void Ros2Outlet::on_robot_pose(const AntennaPose& pose) {
 
 void Ros2Outlet::on_restart() {
   updates_.clear();
-  told_time_.reset();
+  stated_time_.reset();
   for (auto& [name, robot] : robots_) robot.last.reset();
 }
 

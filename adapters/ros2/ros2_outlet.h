@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A run as ROS 2 messages: an outlet like those for CSV and ROS 1, into DDS or a file.
+/// A run as ROS 2 messages: an outlet like those for CSV and ROS 1, to DDS or a file.
 #pragma once
 
 #include <map>
@@ -16,36 +16,36 @@
 
 namespace tagfield::ros2 {
 
-/// The world's frame, by REP-105. Frames of antennas and robots hang below it.
+/// The world's frame according to REP-105. It is the parent of the frames of antennas and robots.
 inline constexpr const char* kMapFrame = "map";
 
-/// Letters, digits and '_' as they are, all else as '_'; no digit at the front: a token of a
-/// topic's name.
+/// `text` as a token of a topic name: letters, digits and '_' stay, other characters become '_',
+/// with an 'n' in front unless it begins with a letter.
 std::string topic_token(const std::string& text);
 
-/// A frame's name: Gazebo's world, and that of no name, is the map.
+/// A frame's name in ROS 2: Gazebo's world, and a frame without a name, is the map.
 std::string frame_in_ros2(const std::string& frame);
 
-/// Tells the topics of docs/ros2.md as the run goes on:
-/// /rfid/reads, /tf (antennas that move, as told), /tf_static (those at rest), /clock,
-/// /rfid/truth/antennas, /rfid/truth/tags, /rfid/truth/tags_moved, /ROBOT/ground_truth/odom.
+/// Publishes the topics of docs/ros2.md during the run: /rfid/reads, /tf (moving antennas, as
+/// reported), /tf_static (those at rest), /clock, /rfid/truth/antennas, /rfid/truth/tags,
+/// /rfid/truth/tags_moved, /ROBOT/ground_truth/odom.
 class Ros2Outlet : public ReadListener, public PoseListener, public TruthListener {
  public:
-  /// `tells_clock`: /clock too; not where a simulator's bridge does.
-  explicit Ros2Outlet(std::shared_ptr<MessageSink> sink, bool tells_clock = true);
+  /// `reports_clock`: publish /clock too; false if a simulator's bridge does.
+  explicit Ros2Outlet(std::shared_ptr<MessageSink> sink, bool reports_clock = true);
 
-  /// Makes its topic, which comes with its first pose otherwise: too late for that pose to reach
-  /// those who look for topics first, as recorders do.
+  /// Creates the robot's topic, which otherwise is created with its first pose: too late for that
+  /// pose to reach programs that look for topics first, such as recorders.
   void expect_robot(const std::string& name);
-  /// Antennas on a robot whose frames others tell: theirs hang below `base_frame` then, and not
-  /// below the map.
+  /// Registers antennas on a robot whose frames other code publishes: the parent of their frames is
+  /// then `base_frame` instead of the map.
   void mount(const std::string& robot, const std::set<std::string>& antennas,
              const std::string& base_frame);
-  /// To /clock, unless it has told that time or a later one.
+  /// Publishes to /clock, unless that time or a later one has been published.
   void tell_time(Time stamp);
-  /// To /tf.
+  /// Publishes to /tf.
   void tell_frame(Time stamp, const geometry_msgs::TransformStamped& frame);
-  /// To /tf_static, with all others that were told before, unless it was told just so.
+  /// Publishes to /tf_static, with all earlier frames, unless it is unchanged.
   void tell_fixed_frame(Time stamp, const geometry_msgs::TransformStamped& frame);
 
   void on_read(const TagRead& read) override;
@@ -62,7 +62,7 @@ class Ros2Outlet : public ReadListener, public PoseListener, public TruthListene
   void on_restart() override;
 
  private:
-  /// Of one antenna, since its last update.
+  /// Data of one antenna since its last update.
   struct Update {
     RigidTransform X_WA;
     std::vector<TagRead> reads;
@@ -96,10 +96,10 @@ class Ros2Outlet : public ReadListener, public PoseListener, public TruthListene
   bool has_changed_ = false;
   std::map<std::string, Robot> robots_;
   Mount mount_;
-  std::optional<Time> told_time_;
+  std::optional<Time> stated_time_;
 };
 
-/// /rfid/markers, twice a second of simulated time: antennas, their ranges, tags in the colour of
+/// Publishes /rfid/markers, twice per simulated second: antennas, their ranges, tags coloured by
 /// their last read.
 class Ros2Markers : public FieldPicture {
  public:

@@ -9,9 +9,9 @@
 namespace tagfield::ros2 {
 namespace {
 
-/// Odometry and its frame come at 50 Hz at the most.
+/// Odometry and its frame are published at 50 Hz at most.
 constexpr Duration kOdometryInterval = std::chrono::milliseconds(20);
-/// Without a newer command the robot stops: whoever drives may be gone.
+/// Without a newer command the robot stops, as the driving program may have exited.
 constexpr Duration kCommandLife = std::chrono::milliseconds(500);
 
 bool is_finite(const geometry_msgs::Twist& twist) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A simulated robot as Nav2 and slam_toolbox know robots: /cmd_vel in, /odom, /scan and frames
-/// out.
+/// A simulated robot with the interface that Nav2 and slam_toolbox expect: /cmd_vel in, /odom,
+/// /scan and frames out.
 #pragma once
 
 #include <functional>
@@ -16,16 +16,16 @@
 
 namespace tagfield::ros2 {
 
-// Frames by REP-105; /tf has odom to base_link, /tf_static base_link to the laser. The one from map
-// to odom is for whoever localizes the robot.
+// Frames according to REP-105; /tf has odom to base_link, /tf_static base_link to the laser. map to
+// odom is left to the robot's localization.
 inline constexpr const char* kOdomFrame = "odom";
 inline constexpr const char* kBaseFrame = "base_link";
 inline constexpr const char* kLaserFrame = "laser";
 
 class Ros2Robot : public RemoteControl {
  public:
-  /// Commands come from `driver`; messages go into `sink`. `outlet` keeps the clock and the frames.
-  /// `warn` gets a line where a command can't be used, once.
+  /// Commands come from `driver`; messages go to `sink`. `outlet` publishes the clock and the
+  /// frames. `warn` receives a line, once, if a command is unusable.
   Ros2Robot(std::shared_ptr<DdsSink> driver, std::shared_ptr<MessageSink> sink,
             std::shared_ptr<Ros2Outlet> outlet, const LaserParameters& laser,
             std::function<void(const std::string&)> warn);
@@ -35,14 +35,14 @@ class Ros2Robot : public RemoteControl {
   void on_scan(const LaserScan& scan) override;
 
  private:
-  /// By the wheels since odometry was told last.
+  /// Travel by odometry since its last publication.
   struct Travel {
     BodyVelocity moved;  ///< [m], [rad]
     Eigen::Vector2d variance = Eigen::Vector2d::Zero();
     double duration_s = 0.0;
 
     void add(const OdometryReport& report, double seconds);
-    /// Puts the mean velocity and its variance into a report, and starts anew.
+    /// Stores the mean velocity and its variance in a report, and resets.
     void take_mean(OdometryReport& report);
   };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The same messages to several sinks.
+/// Duplication of messages to several sinks.
 #pragma once
 
 #include <memory>
@@ -32,7 +32,7 @@ class TeeSink : public MessageSink {
 
  private:
   std::vector<std::shared_ptr<MessageSink>> sinks_;
-  std::vector<std::vector<std::size_t>> topics_;  ///< Their numbers of each topic.
+  std::vector<std::vector<std::size_t>> topics_;  ///< Each topic's numbers in the sinks.
 };
 
 }  // namespace tagfield::ros2

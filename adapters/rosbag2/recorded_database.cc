@@ -36,7 +36,7 @@ class RecordedDatabase : public RecordedFile {
   std::string path_;
   Database database_;
   std::vector<RecordedTopic> topics_;
-  std::map<std::int64_t, std::size_t> indexes_;  ///< By the topics' numbers in the file.
+  std::map<std::int64_t, std::size_t> indexes_;  ///< By the topics' ids in the file.
 };
 
 void RecordedDatabase::read_topics(Diagnostics& diagnostics) {
@@ -50,7 +50,7 @@ void RecordedDatabase::read_topics(Diagnostics& diagnostics) {
   diagnostics.warn({path_, 0}, fmt::format("its topics are broken ({})", database_.complaint()));
 }
 
-/// Pages that are told of twice could make a small file an endless one.
+/// Pages that are referenced repeatedly could make a small file endless.
 bool RecordedDatabase::is_too_much(std::uint64_t rows, std::uint64_t bytes,
                                    Diagnostics& diagnostics) const {
   if (rows <= database_.size() && bytes <= database_.size()) return false;
@@ -61,7 +61,8 @@ bool RecordedDatabase::is_too_much(std::uint64_t rows, std::uint64_t bytes,
 
 void RecordedDatabase::read(const std::vector<char>& wanted, const Tell& tell,
                             Diagnostics& diagnostics) {
-  // In the order of the table, which is that of recording. An index may be broken for itself.
+  // In table order, which is the order of recording. An index may be corrupt independently of the
+  // table.
   Rows rows = database_.rows("SELECT topic_id, data FROM messages NOT INDEXED");
   std::uint64_t count = 0;
   std::uint64_t bytes = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of recorded_database.cc, in builds without SQLite.
+// Replaces recorded_database.cc in builds without SQLite.
 #include "adapters/rosbag2/recorded_file.h"
 
 namespace tagfield {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of recorded_mcap.cc, in builds without MCAP.
+// Replaces recorded_mcap.cc in builds without MCAP.
 #include "adapters/rosbag2/recorded_file.h"
 
 namespace tagfield {

@@ -37,7 +37,7 @@ bool is_database(const std::string& path) {
   return fs::path(path).extension() == ".db3" || begins_with(path, kDatabaseMagic);
 }
 
-/// "run_10" → ("run_", 10): the tenth comes after the second.
+/// "run_10" → ("run_", 10), so that the tenth follows the ninth.
 std::pair<std::string, std::string> numbered(const fs::path& path) {
   const std::string stem = path.stem().string();
   std::size_t digits = stem.size();
@@ -47,7 +47,7 @@ std::pair<std::string, std::string> numbered(const fs::path& path) {
   return {stem.substr(0, digits), zeros + number};
 }
 
-/// By their names: files of either kind.
+/// Files of either kind, by their names.
 std::vector<std::string> files_in(const fs::path& folder) {
   std::vector<std::string> files;
   std::error_code error;
@@ -64,7 +64,7 @@ std::vector<std::string> files_in(const fs::path& folder) {
   return files;
 }
 
-/// The file in `folder` that a metadata.yaml names.
+/// The file in `folder` that is named in a metadata.yaml.
 std::string file_named(const fs::path& folder, const YamlValue& name) {
   const fs::path relative = name.text();
   std::error_code error;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Of which files a recording of ROS 2 consists.
+/// The files of a ROS 2 recording.
 #pragma once
 
 #include <memory>
@@ -12,17 +12,18 @@
 
 namespace tagfield {
 
-/// Whether a path is meant to be one: an MCAP file or a database, by its name (….mcap, ….db3) or
-/// how it begins, or a folder with a metadata.yaml or such files.
+/// Whether a path is meant to be a ROS 2 recording: an MCAP file or a database, judging by its name
+/// (….mcap, ….db3) or its first bytes, or a folder with a metadata.yaml or such files.
 bool is_ros2_recording(const std::string& path);
 
 /// The file itself; or those of a folder, in the order of its metadata.yaml. Without that, as after
-/// a recording that was cut off, in the order of the numbers in their names, with a warning. Throws
-/// Error on a metadata.yaml that can't be read, or names files outside of the folder or compressed
-/// as a whole, and where no file is left.
+/// an interrupted recording, they are in the order of the numbers in their names, with a warning.
+/// Throws Error if metadata.yaml can't be read or names files outside of the folder or files
+/// compressed as a whole, and if no file is left.
 std::vector<std::string> files_of_recording(const std::string& path, Diagnostics& diagnostics);
 
-/// By its name or how it begins. Throws Error as the functions that open either kind.
+/// Opens a file of either kind, judging by its name or first bytes. Throws Error as the functions
+/// that open either kind.
 std::unique_ptr<RecordedFile> open_recorded_file(const std::string& path, Diagnostics& diagnostics);
 
 }  // namespace tagfield

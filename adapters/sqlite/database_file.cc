@@ -21,7 +21,7 @@ struct DropStatement {
 };
 using Statement = std::unique_ptr<sqlite3_stmt, DropStatement>;
 
-/// As SQL writes the name of a table or column, whatever is in it.
+/// Quotes the name of a table or column for SQL, whatever its characters.
 std::string quoted(const std::string& name) {
   std::string text = "\"";
   for (const char c : name) {
@@ -37,7 +37,7 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Puts a cell into its place in a statement. Gives SQLite's result.
+/// Binds a cell to a parameter of a statement. Returns SQLite's result.
 int bind_cell(sqlite3_stmt* statement, int place, const Cell& cell) {
   switch (cell.kind) {
     case Cell::Kind::kWhole:
@@ -90,7 +90,7 @@ DatabaseFile::DatabaseFile(const std::string& path, std::string named)
       sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
   parts_->database.reset(database);
   if (result != SQLITE_OK) parts_->fail_to_write();
-  // One transaction into a file that nobody looks at: a journal would be for nothing.
+  // One transaction to a file that nobody uses yet: a journal would be useless.
   parts_->run("PRAGMA journal_mode=OFF");
   parts_->run("PRAGMA synchronous=OFF");
   parts_->run("BEGIN");

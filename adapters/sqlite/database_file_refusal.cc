@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of database_file.cc, in builds without SQLite.
+// Replaces database_file.cc in builds without SQLite.
 #include "adapters/sqlite/database_file.h"
 #include "tagfield/base/error.h"
 

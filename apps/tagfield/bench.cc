@@ -48,11 +48,11 @@ struct BenchArguments {
 };
 
 int list_methods() {
-  fmt::print("{}", told_of_methods());
+  fmt::print("{}", methods_help());
   return kExitOk;
 }
 
-/// Those of the command line.
+/// Adds the methods of the command line.
 void add_commands(const BenchArguments& arguments, Suite& suite) {
   for (const std::string& argument : arguments.commands) {
     const std::size_t equals = argument.find('=');
@@ -70,7 +70,8 @@ void add_commands(const BenchArguments& arguments, Suite& suite) {
   }
 }
 
-/// All that the suite may name. Its own commands must be allowed: a suite may be anybody's.
+/// All methods that the suite may name. Its own commands must be allowed explicitly, as suites are
+/// untrusted.
 std::vector<Method> methods_for(const Suite& suite, const BenchArguments& arguments) {
   std::vector<Method> methods = built_in_methods();
   for (const SuiteMethod& method : suite.methods) {
@@ -106,7 +107,8 @@ Suite suite_of(const BenchArguments& arguments) {
   return suite;
 }
 
-/// What is done stays there until all is: a bench that was cut off can go on. More seeds go on too.
+/// Keeps finished runs until all are done: an interrupted bench can be continued, also with more
+/// seeds.
 std::unique_ptr<RunStore> store_of(const BenchArguments& arguments, const Suite& suite,
                                    const std::string& out) {
   std::vector<std::string> words;
@@ -155,7 +157,7 @@ int bench(const BenchArguments& arguments) {
       [&](const SuiteRecording& recording) { return read_recording(recording, diagnostics); });
   const std::string out =
       arguments.out.empty() ? "runs/bench_" + folder_name(suite.name) : arguments.out;
-  catch_interrupts();  // From here on something would be left in the folder.
+  catch_interrupts();  // From here on an interruption would leave files in the folder.
   StagedFolder folder(out);
   const std::unique_ptr<RunStore> store = store_of(arguments, suite, out);
   folder.keep(kResumeLog);

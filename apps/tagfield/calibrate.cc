@@ -11,7 +11,7 @@
 #include "tagfield/calibration/calibration.h"
 #include "tagfield/calibration/carry_over.h"
 #include "tagfield/files/files.h"
-#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/files/tag_positions_csv.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/scenario/calibration_profile.h"
 
@@ -19,10 +19,10 @@ namespace tagfield {
 namespace {
 
 struct CalibrateArguments {
-  std::vector<std::string> reads;  ///< Of one experiment or of several,
-  std::vector<std::string> poses;  ///< each with its own poses, or all with the first,
-  std::string format;              ///< How other people's tables are to be read, or "".
-  std::vector<std::string> tags;   ///< and likewise tags at known places.
+  std::vector<std::string> reads;  ///< Of one or several experiments,
+  std::vector<std::string> poses;  ///< each with its own poses, or all with the same,
+  std::string format;              ///< Format of third-party tables, or "".
+  std::vector<std::string> tags;   ///< and similarly for tags at known positions.
   std::string out;
   CalibrationOptions options;
   bool as_json = false;
@@ -89,7 +89,7 @@ std::string to_json(const Calibration& calibration) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// That of an experiment, or the one of all; "" where none was told.
+/// The value for an experiment, or the one for all; "" if none is given.
 std::string of_experiment(const std::vector<std::string>& all, std::size_t number,
                           std::size_t experiments, const char* option) {
   if (all.empty()) return "";
@@ -108,7 +108,7 @@ Calibration calibration_of(const CalibrateArguments& arguments, std::size_t numb
   const std::string poses_file = of_experiment(arguments.poses, number, count, "--poses");
   const std::string tags_file = of_experiment(arguments.tags, number, count, "--tags");
   const auto [reads, poses] = read_tables("calibrate", file, poses_file, arguments.format);
-  const auto tags = read_tag_places_csv(tags_file);
+  const auto tags = read_tag_positions_csv(tags_file);
   if (!has_phases(reads)) fail({file, 0}, "the reads have no phases, or all the same one");
   Calibration calibration =
       calibrate(reads, poses, tags, arguments.options, arguments.threads, diagnostics);
@@ -122,7 +122,7 @@ Calibration calibration_of(const CalibrateArguments& arguments, std::size_t numb
   return calibration;
 }
 
-/// Of several experiments what all of them tell.
+/// The combined calibration of all experiments.
 Calibration calibration_of_all(const CalibrateArguments& arguments, Diagnostics& diagnostics) {
   std::vector<Calibration> experiments;
   for (std::size_t i = 0; i < arguments.reads.size(); ++i) {
@@ -150,7 +150,7 @@ int calibrate_command(const CalibrateArguments& arguments) {
   calibration.name =
       "calibration by " + std::filesystem::path(arguments.reads.front()).filename().string() +
       (arguments.reads.size() > 1 ? fmt::format(" and {} more", arguments.reads.size() - 1) : "");
-  catch_interrupts();  // What is left takes but a moment, and then nothing half-done lies about.
+  catch_interrupts();  // The rest takes only a moment, and no incomplete files remain.
   write_text_file(arguments.out, to_yaml(calibration));
   if (arguments.as_json) {
     fmt::print("{}", to_json(calibration));

@@ -57,7 +57,7 @@ Json describe(const Scene& scene) {
   return json;
 }
 
-/// As the key `model` has it: "paper", "link_budget", "multipath".
+/// Value of the key `model`: "paper", "link_budget", "multipath".
 std::string model_of(const AntennaParameters& antenna) {
   const RadioModel* const model = physical(antenna);
   if (model == nullptr) return "paper";
@@ -100,7 +100,7 @@ void add_scenario(const Scenario& scenario, Json& json) {
 Json describe_scenario(const CheckArguments& arguments, Diagnostics& diagnostics) {
   const ScenarioWithWorld loaded = load_scenario_with_world(
       arguments.file, overrides_in(arguments.settings), diagnostics, arguments.world);
-  // Whatever would stop the run stops the check.
+  // Anything that would stop the run stops the check.
   const Simulation simulation(loaded.scenario, loaded.scenario.seed);
   if (loaded.scenario.pose.source == PoseSource::kSlam) {
     navigation_world(loaded.scenario, loaded.scene, diagnostics);
@@ -153,7 +153,7 @@ Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
   return describe_checked_file(arguments.file, kind, diagnostics);
 }
 
-/// What there is in a file, one fact a line.
+/// Prints the contents of a file, one fact per line.
 void print_facts(const Json& json) {
   constexpr std::size_t kMostNames = 12;
   for (const auto& [key, value] : json.items()) {
@@ -173,7 +173,7 @@ void print_facts(const Json& json) {
   }
 }
 
-/// Models of antennas in force: "multipath", or with several "paper (1 antenna), multipath (3)".
+/// Active models of antennas: "multipath", or with several "paper (1 antenna), multipath (3)".
 std::string models_in_force(const Json& antennas) {
   std::map<std::string, std::size_t> counts;
   for (const Json& antenna : antennas) ++counts[antenna["model"].get<std::string>()];

@@ -22,7 +22,7 @@
 #include "tagfield/files/read_overview.h"
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/files/tag_heights_csv.h"
-#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/files/tag_positions_csv.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/report/estimates_csv.h"
@@ -95,8 +95,7 @@ void add_poses(const std::vector<AntennaPose>& poses, Json& json) {
   json["duration_s"] = span_s(poses);
 }
 
-// --- Tables
-// ---------------------------------------------------------------------------------------
+// --- Tables ------------------------------------------------------------------
 
 Json describe_estimates(const std::string& path) {
   const std::vector<TagEstimate> estimates =
@@ -105,7 +104,7 @@ Json describe_estimates(const std::string& path) {
           {"tags", names_in(estimates, [](const TagEstimate& estimate) { return estimate.tag; })}};
 }
 
-/// By its columns, as it is without regard to the file's name.
+/// Identified by its columns, regardless of the file's name.
 Json describe_table(const std::string& path) {
   CsvTable head;
   std::size_t rows = 0;
@@ -126,7 +125,7 @@ Json describe_table(const std::string& path) {
     json = {{"kind", "heights of tags"}, {"tags", read_tag_heights_csv(path).size()}};
   } else if (has({"tag", "x_m", "y_m"}) && !has({"stamp_s"})) {
     if (has({"verdict"}) || !has({"z_m"})) return describe_estimates(path);
-    json = {{"kind", "places of tags"}, {"tags", read_tag_places_csv(path).size()}};
+    json = {{"kind", "places of tags"}, {"tags", read_tag_positions_csv(path).size()}};
   } else if (has({"stamp_s", "tag", "x_m"}) || has({"stamp_s", "robot", "x_m"}) ||
              has({"distance_m"})) {
     json = {{"kind", "table of the truth"}, {"rows", rows}, {"columns", head.header}};
@@ -140,10 +139,9 @@ Json describe_table(const std::string& path) {
   return json;
 }
 
-// --- Suites
-// ---------------------------------------------------------------------------------------
+// --- Suites ------------------------------------------------------------------
 
-/// With the suite's own commands, none of which is started.
+/// Includes the suite's own commands, none of which is run.
 std::vector<Method> methods_of(const Suite& suite, Diagnostics& diagnostics) {
   std::vector<Method> methods = built_in_methods();
   for (const SuiteMethod& method : suite.methods) {
@@ -177,8 +175,7 @@ Json describe_suite(const std::string& path, const std::string& kind, Diagnostic
   return json;
 }
 
-// --- Others
-// ---------------------------------------------------------------------------------------
+// --- Others ------------------------------------------------------------------
 
 Json describe_events(const std::string& path) {
   const EventsSpec spec = read_events_spec(path);

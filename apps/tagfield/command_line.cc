@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-// A signal handler reaches only what is static.
+// A signal handler can only access static variables.
 std::atomic<bool> interrupt_flag{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 

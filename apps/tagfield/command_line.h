@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What all subcommands share: exit codes, warnings, interruption.
+/// Shared by all subcommands: exit codes, warnings, interruption.
 #pragma once
 
 #include <atomic>
@@ -12,10 +12,10 @@
 namespace tagfield {
 
 inline constexpr int kExitOk = 0;
-inline constexpr int kExitFailure = 1;        ///< A fault of the program.
+inline constexpr int kExitFailure = 1;        ///< Internal error.
 inline constexpr int kExitBadInput = 2;       ///< Bad input or usage.
-inline constexpr int kExitIncomplete = 3;     ///< Some runs failed, or are not done yet.
-inline constexpr int kExitInterrupted = 130;  ///< By SIGINT or SIGTERM, as shells say it.
+inline constexpr int kExitIncomplete = 3;     ///< Some runs failed, or are not finished.
+inline constexpr int kExitInterrupted = 130;  ///< By SIGINT or SIGTERM, as in shells.
 
 /// Prints each warning as a line on standard error.
 void print_warnings(const Diagnostics& diagnostics);
@@ -24,7 +24,7 @@ void print_warnings(const Diagnostics& diagnostics);
 const std::atomic<bool>& interrupted();
 void catch_interrupts();
 
-/// Threads to use where the user says nothing: all that the machine has.
+/// Default number of threads: all of the machine's.
 int default_threads();
 
 }  // namespace tagfield

@@ -18,7 +18,7 @@
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/files/tag_heights_csv.h"
-#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/files/tag_positions_csv.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/report/estimates_csv.h"
 
@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that goes with it.
+/// A temporary folder that the destructor deletes.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -49,7 +49,7 @@ class TemporaryFolder {
   fs::path path_;
 };
 
-/// In order of time. Phases that are known but for π are given in [0, π).
+/// Reads in chronological order. Phases with π ambiguity are in [0, π).
 std::vector<TagRead> reads_of(const LocalizationProblem& problem) {
   std::vector<TagRead> reads;
   for (const auto& [tag, samples] : problem.samples) {
@@ -99,11 +99,11 @@ void write_problem(const LocalizationProblem& problem, const fs::path& folder) {
   }
   if (!problem.reference_tags.empty()) {
     write_text_file((folder / "reference_tags.csv").string(),
-                    tag_places_to_csv(problem.reference_tags));
+                    tag_positions_to_csv(problem.reference_tags));
   }
 }
 
-/// Runs it with its output in `log`; gives waitpid()'s status.
+/// Runs the program with its output in `log`; returns waitpid()'s status.
 int run_program(const std::string& command, const std::string& folder, const std::string& log) {
   posix_spawn_file_actions_t files;
   ::posix_spawn_file_actions_init(&files);
@@ -126,7 +126,7 @@ int run_program(const std::string& command, const std::string& folder, const std
   return status;
 }
 
-/// ": " and the last line of the log that says anything, or nothing.
+/// ": " and the last non-empty line of the log, or nothing.
 std::string last_line(const fs::path& log) {
   constexpr std::size_t kMostLog = 1U << 26U;
   std::string text = is_there(log) ? read_text_file(log.string(), kMostLog) : "";
@@ -153,7 +153,7 @@ void run_command(const std::string& command, const fs::path& folder) {
   }
 }
 
-/// The program's estimates, of the problem's tags.
+/// The program's estimates for the problem's tags.
 std::map<std::string, TagEstimate> estimates_in(const LocalizationProblem& problem,
                                                 const fs::path& folder) {
   const fs::path file = folder / "estimates.csv";

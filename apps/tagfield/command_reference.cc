@@ -7,7 +7,7 @@
 namespace tagfield {
 namespace {
 
-/// Kinds of files that help texts name, and how such files end.
+/// Kinds of files named in help texts, and their extensions.
 const std::vector<std::pair<std::string, std::vector<std::string>>>& file_kinds() {
   static const std::vector<std::pair<std::string, std::vector<std::string>>> kKinds = {
       {"YAML", {"yaml", "yml"}}, {"CSV", {"csv"}},    {".sdf", {"sdf"}},     {".world", {"world"}},
@@ -18,7 +18,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& file_kinds(
 
 bool has(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
 
-/// "{above,below}" as its words.
+/// The words of "{above,below}".
 std::vector<std::string> choices_in(const std::string& type) {
   const std::size_t open = type.find('{');
   const std::size_t close = type.find('}', open);
@@ -53,7 +53,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
 
 std::vector<const CLI::Option*> named_options(const CLI::App& command) {
   return command.get_options([](const CLI::Option* option) {
-    return option->nonpositional() && !option->get_group().empty();  // Others are not told of.
+    return option->nonpositional() && !option->get_group().empty();  // Others are hidden.
   });
 }
 

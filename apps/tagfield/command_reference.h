@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What --help prints, in the forms of shells and of man.
+/// The contents of --help as shell completions and man pages.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,32 +9,32 @@
 
 namespace tagfield {
 
-/// What a shell may complete an option's or argument's value with.
+/// Completions for the value of an option or argument.
 struct ValueWords {
   bool is_taken = false;               ///< False for a flag.
   bool is_file = false;                ///< A file or folder.
-  std::vector<std::string> endings{};  ///< Of the files, as "csv"; empty for any.
-  std::vector<std::string> choices{};  ///< The only values that there are.
+  std::vector<std::string> endings{};  ///< Extensions of the files, such as "csv"; empty for any.
+  std::vector<std::string> choices{};  ///< The only valid values.
 };
 
-/// By the type and the description that --help prints.
+/// Derived from the type and the description that --help prints.
 ValueWords value_words(const CLI::Option& option);
 
-/// All of a program's commands, in their order.
+/// All of a program's commands, in order of definition.
 std::vector<const CLI::App*> commands_of(const CLI::App& app);
 
 /// Options with a name, and arguments without one.
 std::vector<const CLI::Option*> named_options(const CLI::App& command);
 std::vector<const CLI::Option*> arguments_of(const CLI::App& command);
 
-/// What completes this program's command lines in a shell: "bash", "zsh" or "fish".
+/// Completion script of this program for a shell: "bash", "zsh" or "fish".
 std::string completion_script(const CLI::App& app, const std::string& shell);
 
-/// The name of a command's page in the manual: "tagfield-run".
+/// The name of a command's manual page: "tagfield-run".
 std::string page_name(const CLI::App& command);
 
-/// The page of `command`, or of the program itself, for section 1 of the manual. `version` is
-/// "0.1.0", `date` that of the sources, or "".
+/// The manual page of `command`, or of the program itself, for section 1. `version` is "0.1.0",
+/// `date` that of the sources, or "".
 std::string man_page(const CLI::App& command, const std::string& version, const std::string& date);
 
 }  // namespace tagfield

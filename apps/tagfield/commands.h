@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The subcommands. Each adds itself to the command line and, once parsed, does its work.
+/// The subcommands. Each adds itself to the command line and, once parsed, runs.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,10 +8,10 @@
 
 namespace tagfield {
 
-/// What a chosen subcommand does; returns the exit code.
+/// Runs the chosen subcommand; returns the exit code.
 using Action = std::function<int()>;
 
-/// All of those below.
+/// Adds all of the commands below.
 void add_commands(CLI::App& app, Action& chosen);
 
 void add_new_command(CLI::App& app, Action& chosen);

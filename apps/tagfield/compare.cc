@@ -25,7 +25,7 @@ struct CompareArguments {
   bool as_json = false;
 };
 
-/// The last part of a path, for people.
+/// The last part of a path, for display.
 std::string name_of_run(const std::string& folder) {
   const fs::path path = fs::path(folder).lexically_normal();
   const std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
@@ -42,7 +42,7 @@ Summary summary_of_run(const std::string& folder) {
   return summary_from_json(read_text_file(file), file);
 }
 
-/// The world from above, of the first run that has it.
+/// Top view of the world, from the first run that has one.
 std::vector<Silhouette> geometry_of_runs(const CompareArguments& arguments) {
   for (const std::string& folder : {arguments.first, arguments.second}) {
     const std::string file = (fs::path(folder) / "top_view.json").string();

@@ -17,7 +17,7 @@ using Strings = std::vector<std::string>;
 
 constexpr std::size_t kDescriptionWidth = 72;
 
-/// The first clause of a help text, for a list of a line each.
+/// The first clause of a help text, for a list with one line per entry.
 std::string short_description(const std::string& text) {
   std::string first = text.substr(0, text.find('\n'));
   for (const char* end : {". ", ": ", "; "}) first = first.substr(0, first.find(end));
@@ -25,7 +25,7 @@ std::string short_description(const std::string& text) {
   return first.substr(0, first.rfind(' ', kDescriptionWidth)) + " …";
 }
 
-/// A word in single quotes, as bash and zsh read it; fish takes this form too, but for backslashes.
+/// A word in single quotes for bash and zsh; fish accepts this form too, except for backslashes.
 std::string shell_quoted(const std::string& text) {
   std::string result = "'";
   for (const char character : text) {
@@ -59,11 +59,10 @@ Strings names_of(const std::vector<const CLI::App*>& commands) {
   return names;
 }
 
-/// Where a shell offers the commands as an argument, as `man` takes them.
+/// Whether a shell should offer the commands for an argument, as for `man`.
 bool takes_command(const CLI::Option& argument) { return argument.get_name() == "COMMAND"; }
 
-// --- bash
-// -----------------------------------------------------------------------------------------
+// --- bash --------------------------------------------------------------------
 
 std::string bash_offer(const ValueWords& words) {
   if (!words.choices.empty())
@@ -138,10 +137,9 @@ std::string bash_completion(const CLI::App& app) {
   return text + "  esac\n}\n\ncomplete -F _tagfield tagfield\n";
 }
 
-// --- zsh
-// ------------------------------------------------------------------------------------------
+// --- zsh ---------------------------------------------------------------------
 
-/// Text in a specification of _arguments, where brackets and colons mean something.
+/// Text in a specification of _arguments, in which brackets and colons are special.
 std::string zsh_text(const std::string& text) {
   std::string result;
   for (const char character : short_description(text)) {
@@ -207,8 +205,7 @@ std::string zsh_completion(const CLI::App& app) {
          "  compdef _tagfield tagfield\nfi\n";
 }
 
-// --- fish
-// -----------------------------------------------------------------------------------------
+// --- fish --------------------------------------------------------------------
 
 std::string fish_text(const std::string& text) {
   std::string result = "'";

@@ -43,7 +43,7 @@ Coverage compute(const Scenario& scenario, const std::vector<DriveSample>& sampl
   return coverage;
 }
 
-/// Tables of an earlier coverage at other heights.
+/// Tables of earlier results at other heights.
 std::vector<std::filesystem::path> stale_files(const std::string& folder) {
   std::vector<std::filesystem::path> stale = {"figures"};
   for (const std::filesystem::path& entry : entries_of(folder)) {
@@ -113,7 +113,7 @@ int coverage(const CoverageArguments& arguments) {
                               ? "runs/" + folder_name(loaded.scenario.name) + "_coverage"
                               : arguments.out;
   require_own_folder(out, loaded.scenario.name, arguments.force);
-  catch_interrupts();  // From here on something would be left in the folder.
+  catch_interrupts();  // From here on an interruption would leave files in the folder.
   StagedFolder folder(out);
   Coverage result;
   try {

@@ -20,13 +20,13 @@
 namespace tagfield {
 namespace {
 
-/// How many links an unasked-for step may take: some ten or twenty seconds.
+/// Maximum number of links with a default step: some ten or twenty seconds.
 constexpr double kMirroredLinks = 800e3;
 constexpr double kDirectLinks = 1.5e6;
 constexpr double kPaperLinks = 20e6;
 constexpr double kLeastStep = 0.1;
 constexpr double kMostStep = 1.0;
-constexpr std::size_t kMostHeights = 3;  ///< That are chosen unasked.
+constexpr std::size_t kMostHeights = 3;  ///< Chosen by default.
 
 std::vector<double> numbers_in(const std::string& option, const std::string& text,
                                std::size_t count, const char* expected) {
@@ -94,8 +94,8 @@ void warn_of_kinds(const Scenario& scenario, Diagnostics& diagnostics) {
                   kinds.size(), scenario.tags.front().id));
 }
 
-/// The one whose name --tag gives; null where there is none. What is no name but a setting goes to
-/// `settings`: that is what --tag was first.
+/// The tag named by --tag, or null. Settings instead of a name, the former usage of --tag, are
+/// added to `settings`.
 const TagSpec* tag_of(const CoverageArguments& arguments, const Scenario& scenario,
                       std::vector<std::string>& settings, Diagnostics& diagnostics) {
   const TagSpec* tag = nullptr;
@@ -159,7 +159,7 @@ void set_antennas(const CoverageArguments& arguments, const Scenario& scenario,
   worded.request.antennas = antennas_matching("coverage", scenario, arguments.antennas);
 }
 
-/// Those of the tags to 5 cm, or of the middle one where they are many.
+/// Heights of the tags, rounded to 5 cm, or the middle one if there are many.
 std::vector<double> usual_heights(const std::vector<DriveSample>& samples) {
   std::vector<double> all;
   for (const RigidTransform& X_WT : samples.front().X_WT) {
@@ -186,7 +186,7 @@ void extend(const Collision& collision, Eigen::AlignedBox2d& box) {
   }
 }
 
-/// The world with all antennas and tags in it; of an empty one some metres around them.
+/// The extent of the world with all antennas and tags; for an empty world some metres around them.
 Eigen::AlignedBox2d usual_region(const Scene& scene, const std::vector<DriveSample>& samples) {
   Eigen::AlignedBox2d world;
   for (const Collision& collision : scene.collisions) extend(collision, world);
@@ -228,7 +228,7 @@ double affordable_links(const Scenario& scenario, const std::vector<std::size_t>
   return links;
 }
 
-/// 0.1 m, or coarser in steps of 5 cm where that would take long.
+/// 0.1 m, or coarser in steps of 5 cm if that would take long.
 double usual_step(const Eigen::AlignedBox2d& region, const Scenario& scenario,
                   const std::vector<DriveSample>& samples, const CoverageRequest& request) {
   CoverageRequest one = request;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What is asked of the coverage command, made into a request with defaults that fit the scenario.
+/// Arguments of the coverage command, converted to a request with defaults that suit the scenario.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace tagfield {
 struct CoverageArguments {
   ScenarioArguments of_scenario;
   std::vector<std::string> antennas;
-  std::vector<std::string> tags;  ///< A tag's name; by the former meaning, settings.
+  std::vector<std::string> tags;  ///< A tag's name; in the former usage, settings.
   std::string tag_profile;
   std::vector<std::string> tag_settings;
   std::string orientation = "0,0,0";
@@ -30,7 +30,7 @@ struct CoverageArguments {
   int threads = default_threads();
 };
 
-/// A request, and how it is said to people.
+/// A request, and its description for people.
 struct WordedRequest {
   CoverageRequest request;
   std::string tag_kind;
@@ -38,7 +38,7 @@ struct WordedRequest {
   std::string moment;
 };
 
-/// Throws Error "coverage: …" on a value that makes no sense.
+/// Throws Error "coverage: …" on an invalid value.
 WordedRequest request_of(const CoverageArguments& arguments, const ScenarioWithWorld& loaded,
                          const std::vector<DriveSample>& samples, Diagnostics& diagnostics);
 

@@ -28,22 +28,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One thing that Tagfield can use, and whether it is there.
+/// Something that Tagfield can use, and whether it is available.
 struct Ability {
   std::string key;         ///< "gazebo".
-  bool works = false;      ///< It was tried, and it does.
-  std::string what;        ///< What was found, or what was not.
-  std::string how_to_get;  ///< Where it does not: a command, or where to read.
+  bool works = false;      ///< It was tried and works.
+  std::string what;        ///< What was found, or is missing.
+  std::string how_to_get;  ///< If missing: a command, or where to read about it.
 };
 
-// --- Asking the machine
-// ---------------------------------------------------------------------------
+// --- System queries ----------------------------------------------------------
 
-/// What a command prints, without the last line's end; none where it fails or takes longer than a
-/// minute. `command` is text of this file alone.
+/// Output of a command, without the trailing line end; none if it fails or takes longer than a
+/// minute. `command` is a literal from this file.
 std::optional<std::string> output_of(const std::string& command) {
   std::fflush(stdout);
-  // What limits this program's memory is not for others, some of which reserve a lot and use
+  // The memory limit of this program must not apply to others, some of which reserve a lot and use
   // little.
   const std::string line = fmt::format(
       "ulimit -S -d unlimited 2>/dev/null; exec timeout 60 sh -c '{}' 2>/dev/null </dev/null",
@@ -82,8 +81,7 @@ std::optional<double> memory_gb(const std::string& key) {
   return std::nullopt;
 }
 
-// --- What there is
-// --------------------------------------------------------------------------------
+// --- Checks ------------------------------------------------------------------
 
 Ability machine() {
   const char* const kNames[] = {"the baseline only", "AVX2", "AVX-512"};
@@ -146,7 +144,7 @@ Ability ros1() {
           ""};
 }
 
-/// The network interface that Cyclone DDS takes here, as it says itself when a node joins.
+/// The network interface that Cyclone DDS uses here, from its own log when a node joins.
 std::string dds_interfaces() {
   const fs::path log =
       fs::temp_directory_path() / fmt::format("tagfield-doctor-{}.log", ::getpid());
@@ -194,7 +192,7 @@ Ability ros2_messages() {
   }
 }
 
-/// Draws a triangle's worth of WebGL in a browser without a window.
+/// Checks WebGL by drawing a triangle in a headless browser.
 Ability browser() {
   std::string program;
   for (const char* name :
@@ -238,7 +236,7 @@ Ability mpi(const BuildInfo& build) {
 Ability python() {
   constexpr const char* kAsk =
       "import importlib, sys\n"
-      "sys.path = [path for path in sys.path if path]\n"  // Folders of sources are no modules.
+      "sys.path = [path for path in sys.path if path]\n"  // Not to import source folders.
       "print(sys.executable, sys.version.split()[0])\n"
       "for name in (\"tagfield\", \"numpy\", \"pandas\", \"matplotlib\"):\n"
       "    try:\n"
@@ -260,7 +258,7 @@ Ability python() {
 std::vector<Ability> abilities(const BuildInfo& build) {
   std::vector<Ability> all = {machine(), shared_files()};
   for (const OptionalPart& part : build.parts) {
-    if (part.key == "mpi" || part.key == "ros2") continue;  // More is asked of them below.
+    if (part.key == "mpi" || part.key == "ros2") continue;  // Checked in more detail below.
     all.push_back({part.key, part.present,
                    part.present ? part.is_for : "built without " + part.is_for,
                    part.present ? "" : part.needs});
@@ -272,8 +270,7 @@ std::vector<Ability> abilities(const BuildInfo& build) {
   return all;
 }
 
-// --- What is said of it
-// ---------------------------------------------------------------------------
+// --- Output ------------------------------------------------------------------
 
 void print_abilities(const BuildInfo& build, const std::vector<Ability>& all) {
   fmt::print("tagfield {}, commit {}\n\nWorks:\n", build.version,

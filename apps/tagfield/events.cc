@@ -43,7 +43,7 @@ std::vector<TagRead> reads_in_bag(const std::string& path, Diagnostics& diagnost
   return read_bag(path, options, diagnostics).reads;
 }
 
-/// A table, or that in the folder of a run.
+/// Reads from a table, or from the one in a run's folder.
 std::vector<TagRead> reads_in_table(const std::string& path) {
   const bool of_run = is_folder(path);
   const fs::path file = of_run ? fs::path(path) / "reads.csv" : fs::path(path);
@@ -62,7 +62,7 @@ std::vector<TagRead> reads_of(const EventsArguments& arguments, Diagnostics& dia
   return reads;
 }
 
-/// Events as a table for people.
+/// Events as a human-readable table.
 class EventTable final : public EventListener {
  public:
   void on_presence(const PresenceEvent& event) override {
@@ -114,7 +114,7 @@ class EventTable final : public EventListener {
   std::size_t told_cycles_ = 0;
 };
 
-/// EPCIS into a file: one document, or where it is called ….jsonl an event on each line.
+/// EPCIS to a file: one document, or, if it is named ….jsonl, one event per line.
 class EpcisFile {
  public:
   EpcisFile(std::string path, const EventsSpec& spec, Time start)
@@ -129,7 +129,7 @@ class EpcisFile {
   void write(Time created) const {
     std::string text;
     for (const std::string& event : events_) text += event + '\n';
-    catch_interrupts();  // What is left takes but a moment, and then nothing half-done lies about.
+    catch_interrupts();  // The rest takes only a moment, and no incomplete files remain.
     write_text_file(path_, has_lines_ ? text : epcis_document(events_, created));
   }
 
@@ -140,11 +140,11 @@ class EpcisFile {
   std::shared_ptr<EpcisEvents> listener_;
 };
 
-/// Posts events to the repository that is asked for.
+/// Posts events to the requested repository.
 class Capture {
  public:
   Capture(CaptureArguments arguments, const EventsSpec& spec, Time start) {
-    arguments.buffer = std::numeric_limits<std::size_t>::max();  // There are as many as there are.
+    arguments.buffer = std::numeric_limits<std::size_t>::max();  // Limited by the input.
     client_ = capture_client(arguments);
     if (!client_) return;
     listener_ = std::make_shared<EpcisEvents>(
@@ -154,7 +154,7 @@ class Capture {
   void attach_to(std::vector<std::shared_ptr<EventListener>>& listeners) const {
     if (listener_) listeners.push_back(listener_);
   }
-  /// Throws Error where the repository does not have all.
+  /// Throws Error if the repository has not accepted all events.
   void finish() const {
     if (!client_) return;
     client_->finish(kPatience, {});
@@ -169,7 +169,7 @@ class Capture {
   }
 
  private:
-  /// Longer than a request may take.
+  /// Longer than the time limit of a request.
   static constexpr std::chrono::milliseconds kPatience{35'000};
   std::shared_ptr<CaptureClient> client_;
   std::shared_ptr<EpcisEvents> listener_;

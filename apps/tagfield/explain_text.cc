@@ -22,7 +22,7 @@ std::string without_unit(double db) {
   return text == "nothing" ? text : text.substr(0, text.size() - 3);
 }
 
-/// The minus sign is three bytes and one column wide.
+/// Right-aligned text; the minus sign has three bytes but is one column wide.
 std::string right(const std::string& text, std::size_t width) {
   const bool has_sign = text.find("−") != std::string::npos;
   const std::size_t columns = text.size() - (has_sign ? 2 : 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// An explained link as text for people.
+/// An explained link as human-readable text.
 #pragma once
 
 #include <string>

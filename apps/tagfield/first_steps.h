@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What `tagfield` alone prints.
+/// Output of `tagfield` without arguments.
 #pragma once
 
 #include <string>
 
 namespace tagfield {
 
-/// What to do next, for somebody who has just installed it.
+/// Next steps for a new user.
 std::string first_steps();
 
 }  // namespace tagfield

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file of a format that is told by its name, as "adarf".
+/// The file of a format given by name, such as "adarf".
 std::string format_file(const std::string& command, const std::string& format) {
   const fs::path path(format);
   if (path.has_extension() || path.has_parent_path() || is_there(path)) return format;
@@ -54,7 +54,7 @@ std::vector<AntennaPose> poses_of(const std::string& command, const std::string&
   return form.poses ? read_dataset_poses_csv(poses, *form.poses) : read_poses_csv(poses);
 }
 
-/// Tables that are there as they are.
+/// Tables that are not in an archive.
 ReadsAndPoses read_plain_tables(const std::string& command, const std::string& reads,
                                 const std::string& poses, const std::string& format) {
   if (!format.empty()) {
@@ -99,7 +99,7 @@ ReadsAndPoses read_tables(const std::string& command, const std::string& reads,
   try {
     return read_plain_tables(command, unpacked.tables().string(), poses, format);
   } catch (const Error& error) {
-    // The table that it complains of is in the archive, for all that people know.
+    // For users, the table in the error message is in the archive.
     std::string said = error.what();
     const std::string folder = unpacked.folder().string();
     if (said.rfind(folder, 0) == 0) said.replace(0, folder.size(), reads);

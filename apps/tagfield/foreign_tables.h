@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads and poses as tables, in the project's own form or in other people's (docs/datasets.md).
+/// Reads and poses as tables, in the project's own format or in third-party ones
+/// (docs/datasets.md).
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,24 +18,25 @@ struct ReadsAndPoses {
   std::vector<AntennaPose> poses;
 };
 
-/// Whether that is the folder of a run, with its tables.
+/// Whether that is a run's folder with tables.
 bool is_run(const std::string& path);
 
-/// Files of tables in the project's own form.
+/// Files of tables in the project's own format.
 struct TableFiles {
   std::string reads;
   std::string poses;
 };
 
-/// Those that read_tables() reads, of a table or the folder of a run. Throws Error where poses are
+/// The files that read_tables() reads for a table or a run's folder. Throws Error if poses are
 /// missing.
 TableFiles own_tables(const std::string& command, const std::string& reads,
                       const std::string& poses);
 
-/// `reads`: a table, the folder of a run, or with a format a folder of tables too, or any of them
-/// in an archive. `poses`: a table, or "" where the format or the run has the antennas' places.
-/// `format`: a file, the name of one in profiles/datasets, or "" for the project's own form. Throws
-/// Error where poses are missing or one too many; `command` begins that line. With a progress bar.
+/// Reads tables, with a progress bar. `reads`: a table, a run's folder, with a format also a folder
+/// of tables, or any of them in an archive. `poses`: a table, or "" if the antennas' poses are part
+/// of the format or the run. `format`: a file, the name of one in profiles/datasets, or "" for the
+/// project's own format. Throws Error, beginning with `command`, if poses are missing or given
+/// twice.
 ReadsAndPoses read_tables(const std::string& command, const std::string& reads,
                           const std::string& poses, const std::string& format);
 

@@ -37,14 +37,14 @@ struct GazeboArguments {
   WorldOptions world;
 };
 
-/// Where a robot must not drive although its laser sees nothing there, as a map.
+/// Writes a map of where a robot must not drive although its laser sees nothing there.
 void write_keep_out(const std::string& path, const Scenario& scenario, const Scene& scene,
                     Diagnostics& diagnostics) {
   const NavigationWorld world = navigation_world(scenario, scene, diagnostics);
   OccupancyGrid nothing = world.true_map;
   std::fill(nothing.cells.begin(), nothing.cells.end(), std::int8_t{-1});
   const fs::path image = fs::path(path).filename().replace_extension(".pgm");
-  std::error_code ignored;  // What can't be made can't be written to either.
+  std::error_code ignored;  // If this fails, writing fails too.
   fs::create_directories(fs::path(path).parent_path(), ignored);
   write_text_files(
       {{(fs::path(path).parent_path() / image).string(), map_to_pgm(driving_map(nothing, world))},
@@ -56,7 +56,7 @@ fs::path out_of(const GazeboArguments& arguments) {
   return fs::path(arguments.scenario).stem().concat(arguments.gz ? ".sdf" : ".world");
 }
 
-/// The world, and the variable by which its models are found; "" for none.
+/// Prints the world, and the environment variable for finding its models; "" for none.
 void print_written(const fs::path& world, const std::string& variable, const std::string& folders,
                    bool as_json) {
   if (as_json) {
@@ -76,9 +76,9 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   Diagnostics diagnostics;
   const ScenarioWithWorld loaded =
       load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);
-  // Whatever would stop a run stops this.
+  // Anything that would stop a run stops this.
   const Simulation simulation(loaded.scenario, loaded.scenario.seed);
-  // What stands in the world stays there, and is not to be added.
+  // Objects in the world stay there and must not be added again.
   const Scenario scenario = load_scenario(arguments.scenario, overrides);
   GazeboWorldOptions options;
   options.robot_model = (shared_folder("models") / "p3at/model.sdf").string();
@@ -92,7 +92,7 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   }
   print_warnings(diagnostics);
   const fs::path out = out_of(arguments);
-  catch_interrupts();  // What is left takes but a moment, and then nothing half-done lies about.
+  catch_interrupts();  // The rest takes only a moment, and no incomplete files remain.
   write_text_file(out.string(), text);
   std::vector<std::string> folders = gazebo_model_paths(scenario);
   const std::string shared = shared_folder("models").string();
@@ -102,7 +102,7 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   return kExitOk;
 }
 
-/// A world or a model of somebody's Gazebo 11, for gz-sim.
+/// Converts a user's Gazebo 11 world or model to gz-sim.
 int convert_world(const GazeboArguments& arguments) {
   if (!arguments.settings.empty() || arguments.real_time || !arguments.keep_out.empty()) {
     throw Error("--set, --speed and --keep-out are for scenarios, not for worlds");
@@ -112,7 +112,7 @@ int convert_world(const GazeboArguments& arguments) {
                                         arguments.gz_options, diagnostics);
   print_warnings(diagnostics);
   const fs::path out = out_of(arguments);
-  catch_interrupts();  // What is left takes but a moment, and then nothing half-done lies about.
+  catch_interrupts();  // The rest takes only a moment, and no incomplete files remain.
   write_text_file(out.string(), text);
   print_written(out, "", "", arguments.as_json);
   return kExitOk;

@@ -29,7 +29,7 @@
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/files/staged_folder.h"
 #include "tagfield/files/tag_heights_csv.h"
-#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/files/tag_positions_csv.h"
 #include "tagfield/files/truth_csv.h"
 #include "tagfield/report/estimates_csv.h"
 #include "tagfield/report/method_summary.h"
@@ -52,12 +52,12 @@ const Scenario* scenario_in(const std::optional<ScenarioWithWorld>& loaded) {
   return loaded ? &loaded->scenario : nullptr;
 }
 
-/// Of the method, from the command line.
+/// Settings of the method from the command line.
 MethodSettings settings_of(const LocalizeArguments& arguments) {
   MethodSettings settings;
   for (const std::string& argument : arguments.settings) {
     auto [key, value] = parse_override(argument);
-    // As the same setting is called in a scenario, for which the other commands' --set is.
+    // The setting's name in a scenario, which --set of other commands uses.
     constexpr std::string_view kSection = "localization.";
     if (key.rfind(kSection, 0) == 0) key.erase(0, kSection.size());
     settings.push_back({key, value, {"--set", 0}});
@@ -65,7 +65,7 @@ MethodSettings settings_of(const LocalizeArguments& arguments) {
   return settings;
 }
 
-/// Those of the scenario, with what the command line says instead; for poses of that name.
+/// Options of the scenario, overridden by the command line; for poses of that name.
 LocalizationOptions options_of(const LocalizeArguments& arguments,
                                const std::optional<ScenarioWithWorld>& loaded,
                                const ReadOverview& reads, const std::string& poses) {
@@ -97,7 +97,8 @@ std::vector<TagOutcome> outcomes_of(const LoadedRecording& recording,
                           options.known.reference_tags);
 }
 
-/// The same reads by the scenario's other methods, after `summary`'s own; none where it names none.
+/// The same reads localized by the scenario's other methods, after `summary`'s own; empty if there
+/// are none.
 std::vector<MethodSummary> compared_methods(const LoadedRecording& recording,
                                             const std::optional<ScenarioWithWorld>& loaded,
                                             LocalizationOptions options, const Summary& summary,
@@ -107,7 +108,7 @@ std::vector<MethodSummary> compared_methods(const LoadedRecording& recording,
   std::vector<MethodSummary> methods = {summary_of_method(summary.method, summary.tags, believed)};
   for (const std::string& name : loaded->scenario.localization.compare) {
     options.method = name;
-    Diagnostics unheard;  // What there is to warn of, the first method has said.
+    Diagnostics unheard;  // The first method has reported all warnings.
     const LocalizationResult result =
         locate_tags(reads_of(recording), recording.poses.poses, options, unheard);
     const bool is_new = std::none_of(methods.begin(), methods.end(), [&](const MethodSummary& of) {
@@ -121,12 +122,12 @@ std::vector<MethodSummary> compared_methods(const LoadedRecording& recording,
   return methods;
 }
 
-/// The same reads with the other poses.
+/// The same reads localized with the other poses.
 std::optional<ComparedPose> compared(const LoadedRecording& recording,
                                      const LocalizationOptions& options,
                                      const std::vector<std::string>& order) {
   if (recording.other.poses.empty()) return std::nullopt;
-  Diagnostics of_other;  // Would be taken for warnings about the run's own poses.
+  Diagnostics of_other;  // Would be mistaken for warnings about the run's own poses.
   const std::vector<TagEstimate> estimates = with_all_tags(
       locate_tags(reads_of(recording), recording.other.poses, options, of_other).estimates,
       recording.truth, order);
@@ -162,11 +163,11 @@ bool is_empty(const Truth& truth) {
          truth.distances.empty();
 }
 
-/// Reads, and the truth with its distances, that are not held in memory.
-void stage_untold(const UntoldReads& untold, const Truth& truth, StagedFolder& folder) {
+/// Stages reads, and the truth with its distances, that are not held in memory.
+void stage_unreported(const UnreportedReads& untold, const Truth& truth, StagedFolder& folder) {
   const bool has_doppler = untold.overview.has_doppler;
   const bool has_truth = untold.has_distances || !is_empty(truth);
-  if (has_truth) stage_true_places(truth, folder);
+  if (has_truth) stage_true_positions(truth, folder);
   ProgressBar bar("writing reads");
   BagReads rows;
   rows.on_progress = [&bar](double share) { bar.show(share); };
@@ -205,10 +206,10 @@ void stage(const LoadedRecording& recording, const std::optional<ScenarioWithWor
     folder.add("corrected_poses.csv", poses_to_csv(result.corrected_poses));
   }
   if (!options.known.reference_tags.empty()) {
-    folder.add("reference_tags.csv", tag_places_to_csv(options.known.reference_tags));
+    folder.add("reference_tags.csv", tag_positions_to_csv(options.known.reference_tags));
   }
   if (recording.untold) {
-    stage_untold(*recording.untold, recording.truth, folder);
+    stage_unreported(*recording.untold, recording.truth, folder);
   } else if (!is_empty(recording.truth)) {
     stage_truth(recording.truth, folder);
   }
@@ -219,14 +220,14 @@ void stage(const LoadedRecording& recording, const std::optional<ScenarioWithWor
   stage_top_view(*loaded, folder);
 }
 
-/// Whether the reads are those of the folder's own run, so that its truth and world are theirs.
+/// Whether the reads belong to the run in the folder, whose truth and world then apply to them.
 bool is_of_this_run(const LocalizeArguments& arguments, const std::string& out) {
   fs::path of_reads = fs::weakly_canonical(arguments.recording);
   if (!is_folder(of_reads)) of_reads = of_reads.parent_path();
   return of_reads == fs::weakly_canonical(out) && !is_bag(arguments.recording);
 }
 
-/// What the run knew and no scenario tells anew.
+/// Keeps the run's files that can't be recreated without a scenario.
 void keep_of_this_run(const std::string& out, const std::optional<ScenarioWithWorld>& loaded,
                       StagedFolder& folder) {
   if (loaded) return;
@@ -253,12 +254,12 @@ void refuse_unknown_method(const std::string& method) {
   }
 }
 
-/// Tags at known places, by the command line or the scenario.
+/// Tags at known positions, from the command line or the scenario.
 std::set<std::string> references_of(const LocalizeArguments& arguments,
                                     const std::optional<ScenarioWithWorld>& loaded) {
   std::map<std::string, Eigen::Vector3d> places;
   if (!arguments.references_file.empty()) {
-    places = read_tag_places_csv(arguments.references_file);
+    places = read_tag_positions_csv(arguments.references_file);
   } else if (loaded) {
     places = localization_options(loaded->scenario, 1).known.reference_tags;
   }
@@ -267,10 +268,10 @@ std::set<std::string> references_of(const LocalizeArguments& arguments,
   return tags;
 }
 
-/// The recording, with warnings of what is odd about it.
+/// The recording, with warnings of suspicious contents.
 LoadedRecording recording_of(const LocalizeArguments& arguments, const std::string& out,
                              const std::set<std::string>& references, Diagnostics& diagnostics) {
-  // A calibration changes them.
+  // A calibration modifies them.
   const bool keep = !arguments.calibration.empty();
   if (is_bag(arguments.recording)) {
     if (!arguments.format.empty()) throw Error("localize: --format can only be used with CSV");
@@ -285,8 +286,8 @@ LoadedRecording recording_of(const LocalizeArguments& arguments, const std::stri
   return recording;
 }
 
-/// Says now that nothing can be written there. SIGINT and SIGTERM, which end the program while it
-/// computes, wait until nothing is left of the trial.
+/// Reports early if the folder is not writable. SIGINT and SIGTERM, which end the program while it
+/// computes, are blocked until the traces of this test are removed.
 void try_folder(const std::string& out) {
   sigset_t ending{};
   sigset_t before{};
@@ -303,7 +304,7 @@ bool tell_orientation(const std::vector<AntennaPose>& poses) {
   Diagnostics unheard;
   const auto tracks = tracks_of(poses, unheard);
   return std::any_of(tracks.begin(), tracks.end(),
-                     [](const auto& track) { return is_orientation_told(track.second); });
+                     [](const auto& track) { return is_orientation_known(track.second); });
 }
 
 }  // namespace
@@ -367,15 +368,15 @@ int localize(const LocalizeArguments& arguments) {
   summary.compared_methods = compared_methods(recording, loaded, options, summary, order);
   summary.warnings = diagnostics.warnings();
   print_warnings(diagnostics);
-  catch_interrupts();  // What is left to do takes but a moment, unless reads don't fit in memory,
-                       // and then nothing half-done lies about.
+  catch_interrupts();  // The rest takes only a moment, unless reads don't fit in memory, and no
+                       // incomplete files remain.
   StagedFolder folder(out);
   stage(recording, loaded, options, result, folder);
   const bool in_parts = recording.stored.has_value();
   if (in_parts && interrupted()) return kExitInterrupted;
   folder.add("summary.json", to_json(summary));
   const ReadOverview overview = std::move(recording.overview);
-  recording = {};  // Its memory is the page's.
+  recording = {};  // Frees its memory for the page.
   if (is_of_this_run(arguments, out)) keep_of_this_run(out, loaded, folder);
   const std::string staging = folder.staging().string();
   stage_report(staging, http::view_of(staging), folder);
@@ -435,7 +436,7 @@ void add_localize_command(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(1, 1024));
   add_json_option(*command, arguments->as_json, "summary.json");
   command->footer(
-      "Methods, and the keys of --set that they take:\n" + told_of_methods() +
+      "Methods, and the keys of --set that they take:\n" + methods_help() +
       "\nPhase must grow with distance (eq. 3 of the paper); negate the phase of readers that do "
       "the\n"
       "opposite. The antenna must have moved along a curve: from a straight path both mirror\n"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// From a recording to a run's folder and its page, for `localize` and for `report` of a bag.
+/// Conversion of a recording to a run's folder and its page, for `localize` and for `report` of a
+/// bag.
 #pragma once
 
 #include <optional>
@@ -16,18 +17,18 @@ namespace tagfield {
 
 struct LocalizeArguments {
   std::string recording;  ///< Reads as CSV, or a bag.
-  std::string poses;      ///< Of CSV reads a file; of a bag one of the words in kPoseWords, or "".
-  std::string format;     ///< How other people's tables are to be read (YAML), or "".
-  std::string method;     ///< "" for the scenario's, or else "auto".
+  std::string poses;      ///< For CSV reads a file; for a bag one of kPoseWords, or "".
+  std::string format;     ///< Format of third-party tables (YAML), or "".
+  std::string method;     ///< "" for the scenario's, or "auto" without one.
   std::string out;        ///< "" for the default.
   std::string scenario;   ///< File, or "".
   RosOptions ros{};
   std::string heights_file;          ///< CSV, or "".
   std::string height_side;           ///< "above", "below", or "".
-  std::string old_height_side;       ///< The same by the option's former name.
+  std::string old_height_side;       ///< Same, by the option's former name.
   std::string circular;              ///< "right" or "left" polarized antennas, or "".
-  std::string side;                  ///< Of the way, on which tags are, or "".
-  std::vector<double> box;           ///< X0 Y0 X1 Y1 in which tags are, or empty.
+  std::string side;                  ///< Side of the path that tags are on, or "".
+  std::vector<double> box;           ///< X0 Y0 X1 Y1 that contains the tags, or empty.
   std::string references_file;       ///< CSV, or "".
   std::vector<std::string> offsets;  ///< "RAD" or "ANTENNA=RAD".
   std::optional<double> pose_sigma_m;
@@ -45,10 +46,10 @@ struct LocalizeArguments {
   WorldOptions world{};  ///< Of the scenario.
 };
 
-/// What `--poses` may say of a bag.
+/// Values of `--poses` for a bag.
 inline constexpr const char* kPoseWords = "auto, true, tf or odometry";
 
-/// Locates the tags, writes the folder, draws the page, prints the table; returns the exit code.
+/// Locates the tags, writes the folder and the page, prints the table; returns the exit code.
 int localize(const LocalizeArguments& arguments);
 
 }  // namespace tagfield

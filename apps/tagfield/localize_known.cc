@@ -13,7 +13,7 @@
 #include "tagfield/base/units.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/files/tag_heights_csv.h"
-#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/files/tag_positions_csv.h"
 
 namespace tagfield {
 namespace {
@@ -31,7 +31,7 @@ TagHeights heights_of(const LocalizeArguments& arguments) {
   return heights;
 }
 
-/// "RAD" or "ANTENNA=RAD"; then without an antenna's name it is that of all.
+/// Parses "RAD", which applies to all antennas, or "ANTENNA=RAD".
 KnownOffset parse_offset(const std::string& word) {
   const std::size_t equals = word.rfind('=');
   const std::string number = equals == std::string::npos ? word : word.substr(equals + 1);
@@ -42,7 +42,8 @@ KnownOffset parse_offset(const std::string& word) {
   return {equals == std::string::npos ? "" : word.substr(0, equals), std::nullopt, *offset};
 }
 
-/// An offset for each antenna of the reads that one is told of; that of its own name counts.
+/// An offset for each antenna of the reads for which one is given; one with its name takes
+/// precedence.
 std::vector<KnownOffset> offsets_of(const std::vector<std::string>& words,
                                     const ReadOverview& reads) {
   std::set<std::string> antennas;
@@ -94,7 +95,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
                       "above or below: unknown heights are estimated, on that side of the antennas")
           ->check(CLI::IsMember({"above", "below"}))
           ->excludes(of_all);
-  // What it was called first; elsewhere --height is a number.
+  // The original name; in other commands --height is a number.
   command.add_option("--height", arguments.old_height_side)
       ->check(CLI::IsMember({"above", "below"}))
       ->excludes(of_all)
@@ -167,7 +168,7 @@ void take_known(const LocalizeArguments& arguments, const ReadOverview& reads,
   }
   if (!arguments.side.empty() || !arguments.box.empty()) known.area = area_of(arguments);
   if (!arguments.references_file.empty()) {
-    known.reference_tags = read_tag_places_csv(arguments.references_file);
+    known.reference_tags = read_tag_positions_csv(arguments.references_file);
   }
   if (!arguments.offsets.empty()) known.offsets = offsets_of(arguments.offsets, reads);
   if (arguments.circular.empty()) return;

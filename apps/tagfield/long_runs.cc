@@ -8,12 +8,12 @@
 namespace tagfield {
 namespace {
 
-// At some ten thousand steps and half a million links of the paper's model a second.
+// Assuming some ten thousand steps and half a million links of the paper's model per second.
 constexpr double kLongSteps = 2e9;
 constexpr double kLongLinks = 1e10;
 constexpr double kMostSteps = 1e13;
 constexpr double kMostLinks = 1e14;
-// Believed and true pose of the antenna and the pose of its robot; reads come on top.
+// Believed and true pose of the antenna and the pose of its robot; reads are not included.
 constexpr double kBytesOfUpdate = 700.0;
 constexpr double kMuchMemory = 4e9;
 

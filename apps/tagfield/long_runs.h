@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a scenario asks for that takes long.
+/// Warnings about long runs.
 #pragma once
 
 #include "tagfield/base/error.h"
@@ -8,8 +8,9 @@
 
 namespace tagfield {
 
-/// Warns, before a scenario with a duration is run, where that takes hours, or where `is_kept` and
-/// the tables will not fit into the memory of most machines. Throws Error for what no machine ends.
+/// Warns, before a scenario with a duration is run, if it takes hours, or if `is_kept` and the
+/// tables will not fit into the memory of most machines. Throws Error for what no machine can
+/// complete.
 void warn_of_long_run(const Scenario& scenario, bool is_kept, Diagnostics& diagnostics);
 
 }  // namespace tagfield

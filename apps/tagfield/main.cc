@@ -33,7 +33,7 @@ constexpr const char* kDescription =
 int parse_and_run(int argc, char** argv) {
   CLI::App app(kDescription, "tagfield");
   app.footer("'tagfield COMMAND --help' says more. Exit code 2 means that an input is wrong.");
-  app.require_subcommand(0, 1);  // Or 'man run' would be two commands.
+  app.require_subcommand(0, 1);  // Otherwise 'man run' would be two commands.
   bool version = false;
   bool as_json = false;
   CLI::Option* version_flag =
@@ -62,32 +62,33 @@ int parse_and_run(int argc, char** argv) {
   return chosen();
 }
 
-/// Where standard input, output or error is closed, the next file that is opened would take its
-/// place, and what is printed would go into that.
+/// If standard input, output or error is closed, the next opened file would take its descriptor,
+/// and output would be written to that file.
 void open_standard_streams() {
   for (int file = STDIN_FILENO; file <= STDERR_FILENO; ++file) {
     if (::fcntl(file, F_GETFD) < 0) (void)::open("/dev/null", O_RDWR);
   }
 }
 
-// What is called where nothing can be handed over reaches only what is static.
+// Handlers that receive no arguments can only access static variables.
 std::atomic<bool> memory_ran_out{false};
 
-/// As operator new does without it.
+/// Throws as operator new does without a handler.
 [[noreturn]] void throw_without_memory() {
   memory_ran_out = true;
   throw std::bad_alloc();
 }
 
-/// Without memory an exception may be thrown where none may leave: in destructors of libraries, and
-/// in the C++ library's iterator over folders. GCC 12 does not tell there which one it was.
+/// Without memory an exception may be thrown where none may escape: in destructors of libraries,
+/// and in the C++ library's iterator over folders. In that case GCC 12 does not tell which
+/// exception it was.
 [[noreturn]] void end_without_exception() {
   constexpr std::string_view kNoMemory = "tagfield: there is not enough memory for this\n";
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
     if (memory_ran_out) throw std::bad_alloc();
   } catch (const std::bad_alloc&) {
-    // As it was in the middle of something, it ends here and now.
+    // The program's state is unknown, so it exits immediately.
     if (::write(STDERR_FILENO, kNoMemory.data(), kNoMemory.size()) >= 0) {
       ::_exit(tagfield::kExitBadInput);
     }
@@ -97,13 +98,14 @@ std::atomic<bool> memory_ran_out{false};
   std::abort();
 }
 
-/// Before objects are made that live as long as the program, for which memory may lack already.
+/// Runs before objects with static storage duration are constructed, for which memory may already
+/// be insufficient.
 [[gnu::constructor(101)]] void be_ready_for_no_memory() {
   std::set_new_handler(throw_without_memory);
   std::set_terminate(end_without_exception);
 }
 
-/// What was printed must have arrived: its last part only leaves now.
+/// Checks that all output was written: its last part is flushed only now.
 int with_output_checked(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   fmt::print(stderr, "tagfield: the standard output can't be written: {}\n", std::strerror(errno));
@@ -114,7 +116,7 @@ int with_output_checked(int code) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
-  // Beyond the limit of a file's size (ulimit -f) writing fails, as on a full disk, and is told of.
+  // Beyond the file size limit (ulimit -f), writing then fails and is reported, as on a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     tagfield::limit_memory_to_what_is_left();
@@ -126,8 +128,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "tagfield: there is not enough memory for this\n");
     return tagfield::kExitBadInput;
   } catch (const std::system_error& error) {
-    // No more threads or open files, a folder that vanished: what Tagfield does itself says it
-    // better.
+    // Out of threads or open files, a folder that vanished: Tagfield's own checks have better
+    // messages.
     fmt::print(stderr, "tagfield: system error: {}\n", tagfield::as_one_line(error.what()));
     return tagfield::kExitBadInput;
   } catch (const std::exception& error) {

@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-/// A line of text as roff reads it: nothing in it is a request or an escape.
+/// A line of text for roff, escaped so that it contains neither requests nor escapes.
 std::string escaped(const std::string& line) {
   std::string result;
   if (!line.empty() && (line[0] == '.' || line[0] == '\'')) result = "\\&";
@@ -16,7 +16,7 @@ std::string escaped(const std::string& line) {
     if (character == '\\') {
       result += "\\e";
     } else if (character == '-') {
-      result += "\\-";  // Copied from a page, it is to be the character that programs take.
+      result += "\\-";  // So that it is copied from a page as an ASCII hyphen.
     } else if (character == '\'') {
       result += "\\(aq";
     } else if (character == '`') {
@@ -44,7 +44,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// Tables, examples and files stand as they are; all else is filled.
+/// Whether a line is kept verbatim, as in tables, examples and files; other lines are filled.
 bool is_as_it_stands(const std::string& line) {
   return line.rfind(' ', 0) == 0 || line.find("  ") != std::string::npos;
 }
@@ -84,7 +84,7 @@ std::string bold_names(const CLI::Option& option) {
   return names;
 }
 
-/// The type's name alone, "UINT" of "UINT:UINT in [1 - 1000]", and what is said of its values.
+/// The type's name alone, "UINT" from "UINT:UINT in [1 - 1000]", and the description of its values.
 std::pair<std::string, std::string> type_and_values(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t colon = type.find(':');
@@ -92,7 +92,7 @@ std::pair<std::string, std::string> type_and_values(const CLI::Option& option) {
   return {type.substr(0, colon), type.substr(colon + 1)};
 }
 
-/// In an order that does not depend on where they lie in memory.
+/// Names in an order that does not depend on memory addresses.
 std::set<std::string> sorted_names(const std::set<CLI::Option*>& options) {
   std::set<std::string> names;
   for (const CLI::Option* option : options) names.insert(option->get_name());
@@ -149,7 +149,7 @@ std::string first_line(const std::string& text) {
   return line.substr(0, line.find(": "));
 }
 
-/// Commands without a footer have that of the program.
+/// A command's own footer; "" if it only inherits the program's.
 std::string own_footer(const CLI::App& command) {
   const CLI::App* parent = command.get_parent();
   const std::string footer = command.get_footer();

@@ -17,9 +17,9 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostSystemBytes = 100'000;  // Of files that tell about the system.
+constexpr std::size_t kMostSystemBytes = 100'000;  // Of system information files.
 
-/// The number in front of a text; none for "max".
+/// The number at the beginning of a text; none for "max".
 std::optional<std::uint64_t> number_in(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(' ');
   if (begin == std::string_view::npos) return std::nullopt;
@@ -36,14 +36,14 @@ std::string text_of(const char* path) {
   }
 }
 
-/// Of a line "NAME:   NUMBER kB" [bytes].
+/// Value of a line "NAME: NUMBER kB" [bytes].
 std::uint64_t kilobytes_of(const std::string& text, std::string_view name) {
   const std::size_t begin = text.find(name);
   if (begin == std::string::npos) return 0;
   return 1024 * number_in(std::string_view(text).substr(begin + name.size())).value_or(0);
 }
 
-/// [bytes]; none where it is not told.
+/// Available memory [bytes]; none if unknown.
 std::optional<std::uint64_t> left_on_machine() {
   const std::string text = text_of("/proc/meminfo");
   const std::uint64_t available = kilobytes_of(text, "MemAvailable:");

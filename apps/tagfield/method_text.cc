@@ -25,13 +25,13 @@ bool is_of_another(const std::vector<Method>& methods, const std::string& key) {
 
 }  // namespace
 
-std::string told_of_methods() {
+std::string methods_help() {
   std::string text;
   const std::vector<Method> methods = built_in_methods();
   for (const Method& method : methods) {
     text += fmt::format("{:<16} {}\n", method.name, method.summary);
     for (const SettingHelp& help : method.settings) {
-      // What "auto" chooses among says what it takes, too.
+      // Settings of the methods that "auto" chooses among are listed there.
       if (method.name == "auto" && is_of_another(methods, help.key)) continue;
       text += told_of(help);
     }

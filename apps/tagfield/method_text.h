@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What people are told of the methods.
+/// Description of the methods for people.
 #pragma once
 
 #include <string>
 
 namespace tagfield {
 
-/// Name and summary of each, a line each, and below it a line for each of its settings.
-std::string told_of_methods();
+/// Name and summary of each method on a line, followed by a line for each of its settings.
+std::string methods_help();
 
 }  // namespace tagfield

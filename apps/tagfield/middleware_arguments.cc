@@ -13,16 +13,18 @@ namespace tagfield {
 namespace {
 
 constexpr std::chrono::milliseconds kMomentAfterInterrupt(300);
-/// Longer than a request may take.
+/// Longer than the time limit of a request.
 constexpr std::chrono::milliseconds kCapturePatience(35'000);
 
-void tell_warning(const std::string& line) { fmt::print(stderr, "tagfield: warning: {}\n", line); }
+void report_warning(const std::string& line) {
+  fmt::print(stderr, "tagfield: warning: {}\n", line);
+}
 
 std::shared_ptr<MqttOutlet> broker_of(const MiddlewareArguments& arguments, Time start) {
   if (arguments.broker.empty()) return nullptr;
   MqttOptions options;
   options.most_messages = arguments.buffer;
-  options.warn = tell_warning;
+  options.warn = report_warning;
   return std::make_shared<MqttOutlet>(arguments.broker, start, options);
 }
 
@@ -45,7 +47,7 @@ std::shared_ptr<CaptureClient> capture_client(const CaptureArguments& arguments)
   CaptureOptions options;
   options.headers = arguments.headers;
   options.most_events = arguments.buffer;
-  options.warn = tell_warning;
+  options.warn = report_warning;
   return std::make_shared<CaptureClient>(arguments.url, options);
 }
 
@@ -98,7 +100,7 @@ bool finish(const MiddlewareRun& run, Time end) {
     is_whole = counts.delivered == counts.taken;
   }
   if (run.capture) {
-    // Ctrl-C may also come while it is waited.
+    // Ctrl-C may also be pressed while waiting.
     const bool was_interrupted = interrupted();
     run.capture->finish(was_interrupted ? kMomentAfterInterrupt : kCapturePatience,
                         [was_interrupted] { return !was_interrupted && interrupted(); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Middleware that gets what a scenario yields: a broker of MQTT, a repository of EPCIS.
+/// Middleware that receives a scenario's output: an MQTT broker, an EPCIS repository.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,43 +15,43 @@
 
 namespace tagfield {
 
-/// A repository of EPCIS that captures events.
+/// An EPCIS repository that captures events.
 struct CaptureArguments {
   std::string url;  ///< "" for none.
   std::vector<std::string> headers;
-  /// Events that are kept while it is away or slow.
+  /// Events that are buffered while it is unreachable or slow.
   std::size_t buffer = CaptureOptions{}.most_events;
 };
 
 /// Adds --capture and --capture-header.
 void add_capture_options(CLI::App& command, CaptureArguments& arguments);
 
-/// Null where none is asked for. It warns on standard error.
+/// The client, or null if none is requested. It warns on standard error.
 std::shared_ptr<CaptureClient> capture_client(const CaptureArguments& arguments);
 
 struct MiddlewareArguments {
   std::string broker;  ///< URL; "" for none.
   std::size_t buffer = MqttOptions{}.most_messages;
   CaptureArguments capture;
-  std::string spec;  ///< File of events to be told; "" for none.
+  std::string spec;  ///< File that specifies events; "" for none.
 };
 
 /// Adds --mqtt, --mqtt-buffer, --capture, --capture-header and --spec.
 void add_middleware_options(CLI::App& command, MiddlewareArguments& arguments);
 
-/// Null what is not asked for.
+/// Null if not requested.
 struct MiddlewareRun {
-  std::shared_ptr<MqttOutlet> broker;      ///< Gets reads, and events where a spec says which.
-  std::shared_ptr<CaptureClient> capture;  ///< Gets events of EPCIS.
+  std::shared_ptr<MqttOutlet> broker;      ///< Receives reads, and events if there is a spec.
+  std::shared_ptr<CaptureClient> capture;  ///< Receives EPCIS events.
   std::shared_ptr<EventStage> events;
 };
 
 /// Times are `start`, since 1970, plus stamps.
 MiddlewareRun attach_middleware(const MiddlewareArguments& arguments, Time start, Outlets& outlets);
 
-/// The run ends at `end`: what that makes of events is told, and what has not got through yet is
-/// waited for, after Ctrl-C a moment only. False if some of it was lost or refused, of which a
-/// warning has told.
+/// Finishes the run at `end`: reports the events that result, and waits for pending deliveries,
+/// after Ctrl-C only for a moment. False if some were lost or refused, which a warning has
+/// reported.
 bool finish(const MiddlewareRun& run, Time end);
 
 }  // namespace tagfield

@@ -28,7 +28,7 @@ std::string filled_in(std::string text, const std::string& name) {
   return text;
 }
 
-/// What a folder, a scenario and a world can be called alike.
+/// Throws Error unless the name is valid for a folder, a scenario and a world.
 void check_name(const std::string& name) {
   if (name.empty() || folder_name(name) != name || name[0] == '-' || name[0] == '.') {
     throw Error(

@@ -11,7 +11,7 @@
 namespace tagfield {
 namespace {
 
-/// The UHF bands of all regions lie closer together than this.
+/// Larger than the ratio between the UHF bands of any two regions.
 constexpr double kMostRatio = 1.2;
 
 void warn_of_order(const std::string& file, std::size_t backwards, std::size_t rows,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What may be wrong with tables of reads and poses although every number in them is one.
+/// Checks for suspicious tables of reads and poses that are formally valid.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace tagfield {
 
-/// Warns of rows that are not in order of time (of each antenna by itself) and of carriers that can
-/// hardly all be in hertz.
+/// Warns of rows that are not in chronological order (per antenna) and of carriers that can hardly
+/// all be in hertz.
 void warn_of_odd_reads(const std::string& file, const ReadOverview& reads,
                        Diagnostics& diagnostics);
-/// Likewise of the order of poses.
+/// Same, for the order of poses.
 void warn_of_odd_poses(const std::string& file, const std::vector<AntennaPose>& poses,
                        Diagnostics& diagnostics);
 

@@ -17,11 +17,11 @@ namespace tagfield {
 namespace {
 
 constexpr const char* kNodeName = "tagfield";
-// Those who run already have found us by then, as a rule.
+// Usually enough for running nodes to discover us.
 constexpr Duration kMostWait = std::chrono::seconds(2);
 constexpr std::chrono::milliseconds kSettling(300);
 
-/// One that takes what all of `sinks` are to get.
+/// One sink that forwards to all of `sinks`.
 std::shared_ptr<ros2::MessageSink> joined(
     const std::vector<std::shared_ptr<ros2::MessageSink>>& sinks) {
   return sinks.size() == 1 ? sinks.front() : std::make_shared<ros2::TeeSink>(sinks);

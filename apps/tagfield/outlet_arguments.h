@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where a run goes besides its folder: into ROS 2, or a file of its messages.
+/// Outputs of a run besides its folder: ROS 2, or a file of its messages.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,24 +20,24 @@ struct OutletArguments {
   std::optional<std::uint32_t> domain;
   std::optional<double> speed;
   std::string drive;
-  std::string mcap;  ///< File to record into, or "".
+  std::string mcap;  ///< File to record to, or "".
 };
 
-/// What a run has besides its outlets.
+/// Further parts of a run besides its outlets.
 struct RunOutlets {
   std::vector<std::shared_ptr<ros2::MessageSink>> sinks;  ///< To be finished after the run.
-  std::optional<RemoteDriving> driving;  ///< Of the robot that is driven from outside, if one is.
+  std::optional<RemoteDriving> driving;  ///< Of the externally driven robot, if any.
 };
 
 void add_outlet_options(CLI::App& command, OutletArguments& arguments);
 
-/// Sets the pace of a run that others listen to: that of the command line, or else of real time
-/// unless the scenario names one. Where somebody outside drives, poses are believed by the wheels,
-/// whatever the scenario says: nobody in here maps, or knows better.
+/// Sets the speed of a run: that of the command line, or else, with ROS 2, real time unless the
+/// scenario states one. If a robot is driven externally, poses are by odometry, whatever the
+/// scenario states: nothing else in here estimates them.
 void apply(const OutletArguments& arguments, Scenario& scenario);
 
-/// Attaches what was asked for, and waits a moment for those who listen already. Throws Error where
-/// the domain can't be joined, or a robot is to be driven that is not there.
+/// Attaches the requested outlets, and waits a moment for existing subscribers. Throws Error if the
+/// domain can't be joined, or the robot to be driven does not exist.
 RunOutlets attach_outlets(const OutletArguments& arguments, const ScenarioWithWorld& loaded,
                           RunControl& control);
 

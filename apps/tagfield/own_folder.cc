@@ -14,10 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whatever is greater was not written by a run.
+/// Larger files were not written by a run.
 constexpr std::size_t kMostBytes = 200'000'000;
 
-/// "" where the file is not there, or says nothing of a scenario.
+/// Name of the scenario in a results file; "" if the file does not exist or states none.
 std::string scenario_in(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return "";

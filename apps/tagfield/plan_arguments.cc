@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// How much of one stage is done, as it is asked of.
+/// Progress callback for one stage, if requested.
 std::function<void(double share)> told_of(const PlanQuestion& question, const char* stage) {
   if (!question.on_progress) return {};
   return [&question, stage](double share) { question.on_progress(stage, share); };

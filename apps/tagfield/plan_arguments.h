@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What is asked of a plan beside its file, made into the plan.
+/// Arguments of a plan besides its file, and the computation of the plan.
 #pragma once
 
 #include <atomic>
@@ -15,26 +15,26 @@ namespace tagfield {
 
 struct PlanQuestion {
   std::uint64_t seed = 1;
-  std::size_t samples = 32;     ///< Of each forecast.
-  std::size_t check_seeds = 0;  ///< Runs of the chosen layout in full.
-  double exact_s = 0.0;         ///< For which the exact solver may look; 0 for not at all.
-  std::string links;            ///< Folder where links are kept; "" for nowhere.
+  std::size_t samples = 32;     ///< Per forecast.
+  std::size_t check_seeds = 0;  ///< Full runs of the chosen layout.
+  double exact_s = 0.0;         ///< Time limit of the exact solver; 0 to skip it.
+  std::string links;            ///< Folder in which to cache links; "" for none.
   int threads = 1;
   const std::atomic<bool>* stop = nullptr;
-  /// Called now and then with what is being done, "links", "layouts" or "check", and how much of
-  /// that is.
+  /// Called regularly with the current stage, "links", "layouts" or "check", and the share of it
+  /// that is done.
   std::function<void(const std::string& stage, double share)> on_progress;
 };
 
-/// Throws Error where the exact solver is asked for and is not there, or knows no such aim: to be
-/// asked before anything is computed.
+/// Throws Error if the exact solver is requested but not built in, or does not support the
+/// objective; to be called before anything is computed.
 void require_exact(const PlanQuestion& question, const PlanSpec& plan);
 
-/// Links, layouts and the check; with its warnings. Throws Error as these do.
+/// Computes links, layouts and the check, including warnings. Throws Error as these do.
 AntennaPlan plan_antennas(const ScenarioToPlan& to_plan, const PlanQuestion& question,
                           Diagnostics& diagnostics);
 
-/// For people: the layouts, the chosen one, what becomes of it, and the check.
+/// Human-readable text: the layouts, the chosen one, its forecast, and the check.
 std::string plan_to_text(const AntennaPlan& plan);
 
 }  // namespace tagfield

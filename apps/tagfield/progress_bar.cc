@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-/// ", 40 s left", ", 5 min left"; empty as long as that can't be said.
+/// ", 40 s left", ", 5 min left"; empty while that is unknown.
 std::string time_left(double so_far_s, double share) {
   constexpr double kToSay = 3.0;  // [s]
   if (so_far_s < kToSay || share <= 0.0) return "";

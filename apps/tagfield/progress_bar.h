@@ -10,9 +10,9 @@
 
 namespace tagfield {
 
-/// Draws on standard error, if that is a terminal: the share that is done and, after some seconds,
-/// about how long the rest takes at that rate. Vanishes when it goes out of scope. Where it is
-/// none, as in a log, work of over twenty seconds says a line a tenth.
+/// If standard error is a terminal, shows there the share that is done and, after some seconds, an
+/// estimate of the remaining time at that rate. Disappears when it goes out of scope. If it is not
+/// a terminal, as in a log, work of over twenty seconds prints a line per tenth.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string label);
@@ -30,11 +30,11 @@ class ProgressBar {
   void say(double share, double so_far_s);
 
   std::string shown_;
-  int tenths_ = 0;  ///< That a log has.
+  int tenths_ = 0;  ///< Tenths already printed to a log.
   std::mutex mutex_;
 };
 
-/// Bars one after the other, as work goes from one stage to the next; each stage takes up one.
+/// A sequence of bars, one per stage of the work.
 class StageBars {
  public:
   /// May be called often, and from any thread.

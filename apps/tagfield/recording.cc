@@ -28,7 +28,7 @@ std::map<std::string, Trajectory> by_name(const std::vector<AntennaPose>& poses)
   return trajectories;
 }
 
-/// Longest way of any one antenna [m].
+/// Longest path of any one antenna [m].
 double longest_path(const std::vector<AntennaPose>& poses) {
   double longest = 0.0;
   for (const auto& [antenna, trajectory] : by_name(poses)) {
@@ -37,7 +37,7 @@ double longest_path(const std::vector<AntennaPose>& poses) {
   return longest;
 }
 
-/// Way driven by all robots, where that is known, else of the antenna that moved most [m].
+/// Path length driven by all robots, if known, else that of the antenna that moved most [m].
 double driven_path(const Truth& truth, const std::vector<AntennaPose>& poses) {
   if (truth.robot_poses.empty()) return longest_path(poses);
   double sum = 0.0;
@@ -66,7 +66,7 @@ std::string frames_of_reads(const BagRecording& bag) {
   return fmt::format("'{}'", fmt::join(antennas, "', '"));
 }
 
-/// Puts into `poses` and `other` what was asked for.
+/// Stores the requested poses in `poses` and `other`.
 void choose_poses(const BagArguments& arguments, const BagOptions& options, BagRecording& bag,
                   LoadedRecording& recording) {
   const NamedPoses truth = {"true", bag.truth.antenna_poses};
@@ -98,7 +98,7 @@ BagRecording bag_with_progress(const std::string& path, BagOptions options,
   return read_bag(path, options, diagnostics);
 }
 
-/// Only in the same frame do errors mean anything.
+/// Errors are only meaningful in the same frame.
 void compare_frames(const std::string& file, const BagRecording& bag, bool beliefs_used,
                     Diagnostics& diagnostics) {
   const std::string& frame = bag.believed.frame;
@@ -108,7 +108,7 @@ void compare_frames(const std::string& file, const BagRecording& bag, bool belie
                                           frame, bag.truth_frame));
 }
 
-/// Reads that are too many for memory are stored in parts, or else read anew.
+/// Reads that don't fit in memory are stored in parts, or else read again.
 void keep_elsewhere(ReadSource source, std::optional<std::size_t> part, const std::string& out,
                     const std::set<std::string>& references, LoadedRecording& recording,
                     Diagnostics& diagnostics) {
@@ -120,7 +120,7 @@ void keep_elsewhere(ReadSource source, std::optional<std::size_t> part, const st
   }
 }
 
-/// How many reads of a bag are kept in memory.
+/// Maximum number of a bag's reads to keep in memory.
 std::size_t most_reads(const BagArguments& arguments, bool keep) {
   if (arguments.part_reads) {
     return *arguments.part_reads == 0 ? std::numeric_limits<std::size_t>::max() : 0;
@@ -128,19 +128,19 @@ std::size_t most_reads(const BagArguments& arguments, bool keep) {
   return keep ? kManyReads : kReadsToReadAnew;
 }
 
-/// So many reads a part, where they are to be worked on in parts: those too that would have to be
-/// kept in memory and can't be.
-std::optional<std::size_t> part_of_bag(const BagArguments& arguments, const UntoldReads& untold,
+/// Number of reads per part if they are to be processed in parts: also those that should be kept in
+/// memory but don't fit.
+std::optional<std::size_t> part_of_bag(const BagArguments& arguments, const UnreportedReads& untold,
                                        bool keep) {
   if (arguments.part_reads) return arguments.part_reads;
   const bool in_parts = keep || untold.overview.count > kManyReads;
   return in_parts ? std::optional(kReadsOfPart) : std::nullopt;
 }
 
-/// The reads of a bag that has too many for memory.
-void take_untold(const BagArguments& arguments, const std::string& out,
-                 const std::set<std::string>& references, bool keep, LoadedRecording& recording,
-                 Diagnostics& diagnostics) {
+/// Takes the reads of a bag that has too many for memory.
+void take_unreported(const BagArguments& arguments, const std::string& out,
+                     const std::set<std::string>& references, bool keep, LoadedRecording& recording,
+                     Diagnostics& diagnostics) {
   keep_elsewhere(reads_of_bag(arguments.bag, *recording.untold),
                  part_of_bag(arguments, *recording.untold, keep), out, references, recording,
                  diagnostics);
@@ -212,7 +212,7 @@ LoadedRecording bag_recording(const BagArguments& arguments, const std::string& 
                  recording.poses.name != "true" || !recording.other.poses.empty(), diagnostics);
   if (bag.untold) {
     recording.untold = std::move(bag.untold);
-    take_untold(arguments, out, references, keep, recording, diagnostics);
+    take_unreported(arguments, out, references, keep, recording, diagnostics);
   } else {
     recording.reads = std::move(bag.reads);
     recording.overview = overview_of(recording.reads);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Options that go with recordings of ROS alone.
+/// Options for ROS recordings only.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,10 +14,10 @@ struct RosOptions {
   std::optional<double> frequency_hz;
 };
 
-/// --frame and --frequency.
+/// Adds --frame and --frequency.
 void add_ros_options(CLI::App& command, RosOptions& options);
 
-/// Throws Error "COMMAND: …" where one of them was given.
+/// Throws Error "COMMAND: …" if one of them is given.
 void refuse_ros_options(const std::string& command, const RosOptions& options);
 
 }  // namespace tagfield

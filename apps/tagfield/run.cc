@@ -30,7 +30,7 @@
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/staged_folder.h"
 #include "tagfield/files/tag_heights_csv.h"
-#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/files/tag_positions_csv.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/report/estimates_csv.h"
 #include "tagfield/report/page.h"
@@ -66,7 +66,7 @@ std::vector<AntennaPose> named(const std::vector<StampedPose>& path) {
   return poses;
 }
 
-/// The map, and the ways of the robot that made it: believed and true.
+/// Stages the map, and the believed and true path of the robot that made it.
 void stage_navigation(const NavigationRun& navigation, StagedFolder& folder) {
   folder.add("map.pgm", map_to_pgm(navigation.map));
   folder.add("map.yaml", map_to_yaml(navigation.map, "map.pgm"));
@@ -75,7 +75,7 @@ void stage_navigation(const NavigationRun& navigation, StagedFolder& folder) {
   folder.add("truth/mapping_path.csv", poses_to_csv(named(navigation.survey->true_path)));
 }
 
-/// What was made of the reads; these and the poses were written as they came.
+/// Stages the results; reads and poses were written during the run.
 void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder& folder) {
   folder.add("estimates.csv", estimates_to_csv(run.estimates));
   if (!run.corrected_poses.empty()) {
@@ -85,15 +85,15 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
   const std::map<std::string, double>& heights = known.heights.of_tag;
   if (!heights.empty()) folder.add("tag_heights.csv", tag_heights_to_csv(heights));
   if (!known.reference_tags.empty()) {
-    folder.add("reference_tags.csv", tag_places_to_csv(known.reference_tags));
+    folder.add("reference_tags.csv", tag_positions_to_csv(known.reference_tags));
   }
   if (run.navigation) stage_navigation(*run.navigation, folder);
   stage_top_view(loaded, folder);
   folder.add("scene.json", http::scene_json(loaded));
 }
 
-/// Of many seeds those that are done stay there until all are, so that a run that was cut off can
-/// go on; the first is always run again, as its reads are what the folder shows.
+/// With many seeds, keeps finished ones until all are done, so that an interrupted run can be
+/// continued; the first is always run again, as the folder shows its reads.
 std::unique_ptr<RunStore> store_of(const RunArguments& arguments,
                                    const std::vector<Override>& overrides, const Scene& scene,
                                    const std::string& out) {
@@ -107,7 +107,7 @@ std::unique_ptr<RunStore> store_of(const RunArguments& arguments,
   return store;
 }
 
-/// The first seed's tables go into `folder` while it runs.
+/// Runs all seeds; the first seed's tables are written to `folder` during its run.
 std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
                                        const ScenarioWithWorld& loaded,
                                        const NavigationWorld* world, RunStore* store,
@@ -136,7 +136,7 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
   return runs;
 }
 
-/// Empty where it is not asked for.
+/// The breakdown; empty if not requested.
 std::vector<EffectCost> breakdown_with_progress(const RunArguments& arguments,
                                                 const Scenario& scenario,
                                                 const NavigationWorld* world,
@@ -147,7 +147,7 @@ std::vector<EffectCost> breakdown_with_progress(const RunArguments& arguments,
   control.threads = arguments.threads;
   control.stop = &interrupted();
   control.on_progress = [&bar](double share) { bar.show(share); };
-  // What it warns of, the run has warned of already.
+  // The run has already reported its warnings.
   Diagnostics unheard;
   std::vector<EffectCost> costs = break_down(scenario, arguments.seed.value_or(scenario.seed),
                                              arguments.seeds, control, unheard, world);
@@ -155,7 +155,7 @@ std::vector<EffectCost> breakdown_with_progress(const RunArguments& arguments,
   return costs;
 }
 
-/// Fills in what the inventory comes to without each antenna, where that is asked for.
+/// Adds the inventory without each antenna, if requested.
 void add_leave_one_out(const RunArguments& arguments, const Scenario& scenario,
                        Diagnostics& diagnostics, Summary& summary) {
   if (!arguments.leave_one_out || interrupted()) return;
@@ -174,9 +174,9 @@ void add_leave_one_out(const RunArguments& arguments, const Scenario& scenario,
       leave_one_out(scenario, arguments.seed.value_or(scenario.seed), arguments.seeds, control);
 }
 
-/// Where the scenario says where its tags run, what moved past the antennas is tracked, too: it has
-/// no one place. Of the first seed. Gives back what came out in a line; "" where nothing is
-/// tracked.
+/// If the scenario states where its tags move, tags that moved past the antennas are also tracked,
+/// as they have no single position. For the first seed. Returns a one-line summary; "" if nothing
+/// is tracked.
 std::string stage_moving_tags(const Scenario& scenario, const SeedRun& run,
                               const RunArguments& arguments, const Summary& summary,
                               StagedFolder& folder, Diagnostics& diagnostics) {
@@ -218,7 +218,7 @@ void print_result(const Summary& summary, const std::string& tracks, const std::
              arguments.no_page ? out : out + "/report.html");
 }
 
-/// What of another run in the same folder does not belong to this one.
+/// Files of another run in the same folder that don't belong to this one.
 std::vector<std::filesystem::path> stale_files() {
   std::vector<std::filesystem::path> all = track_file_names();
   for (const char* name :
@@ -230,7 +230,7 @@ std::vector<std::filesystem::path> stale_files() {
   return all;
 }
 
-/// Reads, poses and the truth are all there is.
+/// Finishes a run that has only reads, poses and the truth.
 int finish_recording(const SeedRun& run, const Diagnostics& diagnostics, const std::string& out,
                      StagedFolder& folder) {
   print_warnings(diagnostics);
@@ -261,7 +261,7 @@ int run(const RunArguments& arguments) {
   take_antennas_away(arguments.without, loaded.scenario);
   apply(arguments.outlets, loaded.scenario);
   const Scenario& scenario = loaded.scenario;
-  // Other warnings come with the result.
+  // Other warnings are printed with the result.
   Diagnostics beforehand;
   warn_of_long_run(scenario, !arguments.record_only, beforehand);
   warn_of_long_tracing(scenario, beforehand);
@@ -269,7 +269,7 @@ int run(const RunArguments& arguments) {
   const std::string out =
       arguments.out.empty() ? "runs/" + folder_name(scenario.name) : arguments.out;
   require_own_folder(out, scenario.name, arguments.force);
-  catch_interrupts();  // From here on something would be left in the folder.
+  catch_interrupts();  // From here on an interruption would leave files in the folder.
   StagedFolder folder(out);
   std::optional<NavigationWorld> world;
   if (scenario.pose.source == PoseSource::kSlam) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostNames = 20;
 
-/// Index of the thing of this name among `names`, or of the only one.
+/// Index of this name in `names`; without a name, of the only one.
 std::size_t find_name(const std::string& command, const std::string& kind, const std::string& name,
                       const std::vector<std::string>& names) {
   if (name.empty() && names.size() == 1) return 0;

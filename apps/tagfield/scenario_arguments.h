@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What commands that look into a scenario have in common.
+/// Arguments shared by commands that examine a scenario.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,14 +18,14 @@ struct ScenarioArguments {
   std::string scenario;
   std::vector<std::string> settings;
   std::optional<std::uint64_t> seed;
-  std::vector<std::string> without{};  ///< Names of antennas to leave out, or patterns.
+  std::vector<std::string> without{};  ///< Names or patterns of antennas to leave out.
   WorldOptions world{};
 };
 
 /// Adds --skip-missing and --allow-outside.
 void add_world_options(CLI::App& command, WorldOptions& options);
 
-/// Adds --json: what a command prints then is what it writes as `file`.
+/// Adds --json, with which the command prints the contents of `file`.
 void add_json_option(CLI::App& command, bool& as_json, const std::string& file);
 
 /// Adds SCENARIO, --set, --without, --seed and the world's options.
@@ -35,26 +35,28 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 void add_change_options(CLI::App& command, std::vector<std::string>& settings,
                         std::vector<std::string>& without);
 
-/// What --set was given, each KEY=VALUE. Throws Error on what is not.
+/// The arguments of --set, each KEY=VALUE. Throws Error otherwise.
 std::vector<Override> overrides_in(const std::vector<std::string>& settings);
 
-/// "" for what fits a seed's 64 bits; CLI11 by itself would bend -1 and 1e30 until they do.
+/// "" if the word fits in a seed's 64 bits, else what is wrong; CLI11 by itself would silently
+/// convert -1 and 1e30.
 std::string fault_of_seed(const std::string& word);
 
 /// The scenario with its settings and its world.
 ScenarioWithWorld load(const ScenarioArguments& arguments, Diagnostics& diagnostics);
 
-/// A scenario's name as a folder's: whatever a shell would stumble over becomes '_'.
+/// A folder name for a scenario: characters that are special in shells become '_'.
 std::string folder_name(const std::string& name);
 
-/// The antenna of this name; with "" the only one. Throws Error "COMMAND: …" with those there are.
+/// The antenna with this name; with "" the only one. Throws Error "COMMAND: …", which lists the
+/// antennas.
 const AntennaSpec& antenna_named(const std::string& command, const Scenario& scenario,
                                  const std::string& name);
-/// Indices of the antennas whose names match one of `patterns`, in their order; of all where there
-/// are no patterns. Throws Error "COMMAND: …" where one matches none.
+/// Indices of the antennas whose names match one of `patterns`, in ascending order; of all if there
+/// are no patterns. Throws Error "COMMAND: …" if a pattern matches none.
 std::vector<std::size_t> antennas_matching(const std::string& command, const Scenario& scenario,
                                            const std::vector<std::string>& patterns);
-/// Likewise.
+/// Same, for a tag.
 const TagSpec& tag_named(const std::string& command, const Scenario& scenario,
                          const std::string& id);
 

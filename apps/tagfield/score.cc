@@ -12,7 +12,7 @@
 #include "tagfield/experiment/judge.h"
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/files/staged_folder.h"
-#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/files/tag_positions_csv.h"
 #include "tagfield/files/truth_csv.h"
 #include "tagfield/report/estimates_csv.h"
 #include "tagfield/report/run_files.h"
@@ -34,7 +34,7 @@ std::map<std::string, double> true_heights(const Truth& truth) {
   return heights;
 }
 
-/// Names that the run doesn't know are slips more often than not.
+/// Warns of names that the run doesn't contain, which are usually typos.
 void warn_of_strangers(const std::string& file, const std::vector<TagEstimate>& estimates,
                        const std::map<std::string, double>& heights,
                        const std::map<std::string, std::size_t>& reads, Diagnostics& diagnostics) {
@@ -48,7 +48,7 @@ void warn_of_strangers(const std::string& file, const std::vector<TagEstimate>& 
   }
 }
 
-/// Without a height a place is judged on the level of its tag.
+/// Reads the estimates; one without a height is evaluated at the height of its tag.
 std::vector<TagEstimate> read_estimates(const std::string& file,
                                         const std::map<std::string, double>& heights,
                                         Diagnostics& diagnostics) {
@@ -71,7 +71,7 @@ int score(const ScoreArguments& arguments) {
   const Truth truth = read_truth(arguments.run);
   std::map<std::string, Eigen::Vector3d> references;
   const fs::path of_references = folder / "reference_tags.csv";
-  if (is_there(of_references)) references = read_tag_places_csv(of_references.string());
+  if (is_there(of_references)) references = read_tag_positions_csv(of_references.string());
 
   Diagnostics diagnostics;
   const std::map<std::string, double> heights = true_heights(truth);

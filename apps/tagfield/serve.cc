@@ -34,9 +34,9 @@ struct ServeArguments {
   std::string start;
   MiddlewareArguments middleware;
   bool locates = false;
-  std::string method;  ///< As the scenario says where empty.
+  std::string method;  ///< Empty for the scenario's.
   double window_s = 120.0;
-  std::string plan;  ///< Folder; "" for the scenario's, if it is the layout of a plan.
+  std::string plan;  ///< Folder; "" for the scenario's, if that is a plan's layout.
   std::string listen = "127.0.0.1";
   std::string token;
   std::optional<double> speed;
@@ -48,7 +48,7 @@ bool is_loopback(const std::string& address) {
   return address == "::1" || address.rfind("127.", 0) == 0;
 }
 
-/// Who else can reach it must know a word.
+/// Requires a token if other machines can reach the server.
 void require_token(ServeArguments& arguments) {
   if (is_loopback(arguments.listen)) return;
   if (arguments.token.empty()) arguments.token = http::new_token();
@@ -72,12 +72,12 @@ std::shared_ptr<llrp::LlrpServer> llrp_server(const ServeArguments& arguments) {
   return std::make_shared<llrp::LlrpServer>(options);
 }
 
-/// Tells events how late it is, where no read does.
+/// Advances the time of events when there are no reads.
 class EventClock final : public LiveMember {
  public:
   explicit EventClock(std::shared_ptr<EventStage> events) : events_(std::move(events)) {}
   void on_step(LiveWorld& world, Time now) override {
-    // Reads may be told as late as the next update of the slowest antenna.
+    // Reads may be delayed until the next update of the slowest antenna.
     double slowest_hz = 1.0;
     for (const LiveAntenna& antenna : world.antennas()) {
       slowest_hz = std::min(slowest_hz, antenna.spec.parameters.rate_hz);
@@ -89,7 +89,7 @@ class EventClock final : public LiveMember {
   std::shared_ptr<EventStage> events_;
 };
 
-/// Ends the connections before the world is gone, however that comes.
+/// Closes the connections before the world is destroyed, even on exceptions.
 class Closing {
  public:
   explicit Closing(llrp::LlrpServer* server) : server_(server) {}
@@ -113,10 +113,10 @@ std::shared_ptr<LiveEstimates> live_estimates(const ServeArguments& arguments,
   return std::make_shared<LiveEstimates>(std::move(options));
 }
 
-/// How long an end waits for an estimate that is being worked out.
+/// Time for which shutdown waits for an estimate in progress.
 constexpr std::chrono::milliseconds kPatience(300);
 
-/// Ends the process, all having been sent and said, without an estimate that would take longer.
+/// Ends the process, after all output, without waiting for an estimate that would take longer.
 void end_estimates(LiveEstimates* estimates) {
   if (estimates == nullptr || estimates->stop(kPatience)) return;
   std::fflush(nullptr);
@@ -161,7 +161,7 @@ int serve(ServeArguments arguments) {
   LiveOptions options;
   options.speed = arguments.speed.value_or(1.0);
   options.is_paused = arguments.is_paused;
-  // Readers that wait for a client read when it tells them to.
+  // Readers controlled by LLRP clients start on request.
   options.readers_start = !arguments.llrp;
   const auto feed = std::make_shared<http::LiveFeed>(start_time("serve", arguments.start, Time{}));
   const auto llrp = llrp_server(arguments);
@@ -203,7 +203,7 @@ int serve(ServeArguments arguments) {
     server.emplace(answerer, feed,
                    http::HttpOptions{arguments.listen, *arguments.http, arguments.token});
   }
-  catch_interrupts();  // Before it says that it is there.
+  catch_interrupts();  // Before the server announces its address.
   print_addresses(llrp ? llrp->addresses() : std::vector<llrp::LlrpAddress>{},
                   server ? server->url() : std::string(), arguments.as_json);
   world.run(interrupted());

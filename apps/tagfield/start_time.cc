@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-// No simulation and no clock that begins with its reader counts 31 years.
+// Neither a simulation nor a clock that starts with its reader reaches 31 years.
 constexpr Time kUnixTime(std::chrono::seconds(1'000'000'000));
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The innermost folder on the way to `out` that is there.
+/// The innermost existing folder on the path to `out`.
 fs::path existing_folder(const std::string& out) {
   fs::path folder = fs::absolute(out);
   std::error_code ignored;
@@ -100,7 +100,7 @@ ReadSource reads_of_table(const std::string& table) {
   return source;
 }
 
-ReadSource reads_of_bag(const std::string& bag, const UntoldReads& untold) {
+ReadSource reads_of_bag(const std::string& bag, const UnreportedReads& untold) {
   return {bag, untold.overview,
           [tell = untold.tell](const std::function<void(const TagRead&)>& take,
                                const std::function<void(double)>& on_progress) {

@@ -27,10 +27,10 @@ struct StreamArguments {
   int threads = default_threads();
 };
 
-/// Whoever read the standard output has closed it: there is nothing more to do.
+/// Thrown when the reader of standard output has closed it: there is nothing more to do.
 struct OutputClosed {};
 
-/// Each read as a line of JSON on the standard output.
+/// Prints each read as a line of JSON on standard output.
 class LinePrinter final : public ReadListener {
  public:
   explicit LinePrinter(Time start) : start_(start) {}
@@ -45,7 +45,7 @@ class LinePrinter final : public ReadListener {
   }
   void on_update(const AntennaInfo& /*antenna*/, Time /*stamp*/) override { flush(); }
 
-  /// Writes whole lines, as many as there are.
+  /// Writes all complete lines.
   void flush() {
     for (std::size_t done = 0; done < lines_.size();) {
       const ssize_t written = ::write(STDOUT_FILENO, lines_.data() + done, lines_.size() - done);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Recordings that a suite names, in whatever form they are.
+/// Recordings named by a suite, in any format.
 #pragma once
 
 #include "tagfield/base/error.h"
@@ -8,7 +8,7 @@
 
 namespace tagfield {
 
-/// Reads the tables, and warns of what is odd in them. Throws Error.
+/// Reads the tables, and warns of suspicious contents. Throws Error.
 RecordedReads read_recording(const SuiteRecording& recording, Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -29,7 +29,7 @@ struct SweepArguments {
   WorldOptions world{};
 };
 
-/// Does the runs and says how it went.
+/// Executes the runs and prints the outcome.
 RunsDone run_with_bar(const OpenSweep& sweep, const std::string& label, std::vector<RunKey> runs,
                       ResultLog& log, int threads) {
   ProgressBar bar(label);
@@ -43,7 +43,7 @@ RunsDone run_with_bar(const OpenSweep& sweep, const std::string& label, std::vec
       [&] { bar.show(static_cast<double>(++done) / static_cast<double>(list.size())); });
 }
 
-/// Does what is left of a shard, in the rungs that are open.
+/// Executes the remaining runs of a shard in the open rungs.
 RunsDone run_shard(const OpenSweep& sweep, const Shard& shard, const SweepArguments& arguments) {
   ResultLog log(shard_log(sweep.folder, shard), sweep.head, arguments.save_every_s);
   const ClosedRungs closed = read_closed_rungs(sweep.folder, sweep.head);
@@ -84,7 +84,7 @@ int sweep_shard(const SweepArguments& arguments) {
   return exit_code_of(done);
 }
 
-/// All of it, rung by rung.
+/// Executes the whole sweep, rung by rung.
 int sweep_all(const SweepArguments& arguments) {
   const OpenSweep sweep = opened(arguments);
   for (;;) {
@@ -97,7 +97,7 @@ int sweep_all(const SweepArguments& arguments) {
   }
 }
 
-/// Those that failed, or the ones that were named.
+/// Runs to repeat: those that failed, or the given ones.
 std::vector<RunKey> runs_again(const OpenSweep& sweep, const std::vector<std::string>& names) {
   std::vector<RunKey> runs;
   if (names.size() == 1 && names.front() == "failed") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tagfield_sweep_mpi: a sweep under mpirun, whose ranks take runs as they get done with others.
+// tagfield_sweep_mpi: a sweep under mpirun, whose ranks take new runs as they finish others.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -26,7 +26,7 @@ struct MpiArguments {
   bool no_page = false;
 };
 
-/// What all ranks have left to do in the rungs that are open; on the others than rank 0 nothing.
+/// The remaining runs of all ranks in the open rungs; empty on ranks other than 0.
 std::vector<RunKey> left_on_first(const mpi::Session& session, const OpenSweep& sweep) {
   if (session.rank() != 0) return {};
   Diagnostics damaged;
@@ -37,7 +37,7 @@ std::vector<RunKey> left_on_first(const mpi::Session& session, const OpenSweep& 
   return left;
 }
 
-/// Does what is left together with the other ranks.
+/// Executes the remaining runs together with the other ranks.
 void run_together(const mpi::Session& session, const OpenSweep& sweep,
                   const MpiArguments& arguments) {
   RunList list(left_on_first(session, sweep));
@@ -67,7 +67,7 @@ void run_together(const mpi::Session& session, const OpenSweep& sweep,
   do_runs(sweep.plan, sweep.means, next, log, control, {});
 }
 
-/// On rank 0; what comes of it is told to the others.
+/// Merges on rank 0 and broadcasts the result.
 Merged merge_on_first(const mpi::Session& session, const OpenSweep& sweep, bool with_page) {
   Merged merged;
   if (session.rank() == 0) merged = merge_sweep(sweep.folder, with_page);
@@ -83,7 +83,7 @@ int sweep_together(const mpi::Session& session, const MpiArguments& arguments) {
   const OpenSweep sweep = open_sweep(arguments.suite, arguments.out);
   if (session.rank() == 0) print_warnings(sweep.diagnostics);
   for (;;) {
-    session.barrier();  // So that all have made sure of the folder, or see the rung that is open.
+    session.barrier();  // So that all ranks have checked the folder, or see the open rung.
     run_together(session, sweep, arguments);
     session.barrier();
     const bool stopped = session.sum(interrupted() ? 1 : 0) > 0;
@@ -93,7 +93,7 @@ int sweep_together(const mpi::Session& session, const MpiArguments& arguments) {
   }
 }
 
-/// The exit code where that is all, as after --help.
+/// Parses the command line; the exit code if there is nothing else to do, as after --help.
 std::optional<int> parse(int argc, char** argv, MpiArguments& arguments) {
   CLI::App app(
       "Do a sweep with all ranks of mpirun\n\n"
@@ -109,7 +109,7 @@ std::optional<int> parse(int argc, char** argv, MpiArguments& arguments) {
       ->check(CLI::Range(0.0, 3600.0));
   app.add_flag("--no-page", arguments.no_page, "Write the data only, no sweep.html");
   app.footer("For example:\n  mpirun -np 4 tagfield_sweep_mpi SUITE --out DIR");
-  // For the build alone, which puts it among the others.
+  // For the build only, which installs the page with the others.
   if (argc == 3 && std::string_view(argv[1]) == "--man-page") {
     write_text_file(argv[2], man_page(app, TAGFIELD_VERSION, ""));
     return kExitOk;
@@ -125,7 +125,7 @@ std::optional<int> parse(int argc, char** argv, MpiArguments& arguments) {
   return std::nullopt;
 }
 
-/// One rank alone says what is wrong with what all were given.
+/// Reports an error and aborts all ranks, so that one common to all is reported once.
 [[noreturn]] void complain(const mpi::Session& session, const std::string& what, int code) {
   fmt::print(stderr, "tagfield_sweep_mpi: {}{}\n",
              session.ranks() > 1 ? fmt::format("rank {}: ", session.rank()) : "", what);

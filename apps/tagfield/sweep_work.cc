@@ -30,12 +30,12 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostWarnings = 20;  // That are told one by one.
-constexpr std::size_t kMostFailures = 20;  // Likewise.
+constexpr std::size_t kMostWarnings = 20;  // Printed individually.
+constexpr std::size_t kMostFailures = 20;  // Same.
 constexpr std::size_t kMostSuiteBytes = 16'000'000;
 constexpr const char* kDatabase = "results.sqlite";
 
-/// A folder's sweep, by what the folder says of it.
+/// A sweep as described by its folder.
 struct FoundSweep {
   SweepSource source;
   SweepPlan plan;
@@ -108,7 +108,7 @@ void add_warnings(const SweepPlan& plan, const PointResults& point, Diagnostics&
   }
 }
 
-/// Of several points that are warned of alike, as points of a sweep are, not each is told.
+/// Limits the number of warnings, as many points of a sweep cause similar ones.
 std::vector<std::string> fewer(const std::vector<std::string>& warnings) {
   if (warnings.size() <= kMostWarnings) return warnings;
   std::vector<std::string> kept(warnings.begin(), warnings.begin() + kMostWarnings);
@@ -158,7 +158,7 @@ std::string left_text(const SweepResults& results, const FoundSweep& found,
                      results.rungs, results.closed.survivors.back().size());
 }
 
-/// Numbers of all points, while their runs go into the tables.
+/// Collects the statistics of all points, while their runs are written to the tables.
 void collect_points(const FoundSweep& found, const RunIndex& index, GrowingTables& tables,
                     SweepResults& results) {
   Diagnostics warnings;
@@ -184,7 +184,7 @@ OpenSweep open_sweep(const std::string& suite, const std::string& out, const Wor
   sweep.folder = out.empty() ? "runs/sweep_" + folder_name(loaded.name) : out;
   sweep.means.methods = built_in_methods();
   sweep.means.read = [](const SuiteRecording& recording) {
-    Diagnostics unheard;  // What is odd is told once, by require_runnable().
+    Diagnostics unheard;  // Warnings are reported once, by require_runnable().
     return read_recording(recording, unheard);
   };
   require_runnable(sweep.plan, sweep.means, sweep.diagnostics);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What `tagfield sweep` and `tagfield_sweep_mpi` share: a sweep opened, its parts put together.
+/// Shared by `tagfield sweep` and `tagfield_sweep_mpi`: opening a sweep, merging its parts.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace tagfield {
 
-inline constexpr double kSaveEvery_s = 5.0;  ///< So much work a killed process loses at most.
+inline constexpr double kSaveEvery_s = 5.0;  ///< Work lost at most by a killed process.
 
 /// A sweep and its folder.
 struct OpenSweep {
@@ -21,27 +21,27 @@ struct OpenSweep {
   std::string suite;  ///< Path of its file.
   std::string folder;
   SweepMeans means;
-  Diagnostics diagnostics;  ///< What is odd in its conditions, not printed yet.
+  Diagnostics diagnostics;  ///< Warnings about its conditions, not printed yet.
 };
 
-/// Reads a suite and makes its folder, or finds that the folder is for it. `out`: "" for
-/// runs/sweep_NAME. Throws Error.
+/// Reads a suite and creates its folder, or checks that an existing folder belongs to it. `out`: ""
+/// for runs/sweep_NAME. Throws Error.
 OpenSweep open_sweep(const std::string& suite, const std::string& out,
                      const WorldOptions& world = {});
 
-/// What merge_sweep() came to.
+/// Result of merge_sweep().
 struct Merged {
   bool complete = false;
-  bool closed_a_rung = false;  ///< So that there are more runs to do now.
+  bool closed_a_rung = false;  ///< So there are more runs to do now.
   int exit_code = 0;
-  std::string json;  ///< What results.json holds, where that was asked for.
+  std::string json;  ///< Contents of results.json, if requested.
 };
 
-/// Puts together what a folder's logs hold, writes the results beside them, and says what came out
-/// and what is missing, or gives back JSON instead. Throws Error.
+/// Merges a folder's logs, writes the results beside them, and prints a summary and what is
+/// missing, or returns JSON instead. Throws Error.
 Merged merge_sweep(const std::string& folder, bool with_page, bool as_json = false);
 
-/// Prints how far all shards are, as text or as JSON: `{suite, runs, done, failed, logs, rung,
+/// Prints the progress of all shards, as text or as JSON: `{suite, runs, done, failed, logs, rung,
 /// rungs, core_hours}`. Throws Error.
 int print_status(const std::string& folder, bool as_json = false);
 

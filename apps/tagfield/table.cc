@@ -17,7 +17,7 @@ constexpr std::size_t kMostRows = 60;
 
 double millimetres(double metres) { return 1e3 * metres; }
 
-/// Errors that a table from elsewhere does not state are 0.
+/// Formats an error; 0 means that a third-party table does not state it.
 std::string stated(double error_m, int width) {
   return error_m > 0.0 ? fmt::format("{:{}.1f}", millimetres(error_m), width)
                        : fmt::format("{:>{}}", "-", width);
@@ -167,7 +167,7 @@ std::string navigation_lines(const Summary& summary) {
          finding_line("carried away", navigation.carried) + finding_line("lost", navigation.lost);
 }
 
-/// Which method it was, where that was not asked for by name.
+/// The method used, if it was not requested by name.
 std::string method_line(const Summary& summary) {
   if (summary.method_why.empty()) return "";
   return fmt::format("method: {}, chosen by {}: {}\n", summary.method, summary.method_asked,
@@ -181,7 +181,7 @@ std::string error_columns(const std::optional<ErrorStatistics>& errors) {
                      millimetres(errors->max));
 }
 
-/// The methods that were compared; where the pose is not the true one, in two lines each.
+/// The compared methods; in two lines each if the pose is not the true one.
 std::string method_lines(const Summary& summary) {
   if (summary.compared_methods.empty()) return "";
   std::string text = fmt::format("{:<24} {:>12} {:>8} {:>8} {:>8} {:>8}  [mm]\n",
@@ -280,7 +280,7 @@ std::string without_lines(const InventorySummary& inventory) {
   return text;
 }
 
-/// Who was read, where nothing is located.
+/// Which tags were read, if none is located.
 std::string inventory_lines(const Summary& summary) {
   const std::string why = fmt::format("no positions: {}\n", summary.method_why);
   return inventory_head(*summary.inventory) + zone_lines(*summary.inventory) +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Results as a table for people.
+/// Results as a human-readable table.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace tagfield {
 
-/// A line for each tag (or, with several seeds, for each tag over its seeds), then the statistics.
+/// A line per tag (with several seeds, per tag over all seeds), then the statistics.
 std::string table_of(const Summary& summary);
 
 }  // namespace tagfield

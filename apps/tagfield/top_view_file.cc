@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-/// The heights between which the view is cut [m].
+/// The height range of the view [m].
 std::pair<double, double> band_of(const Scenario& scenario) {
   double highest = 1.0;
   for (const TagSpec& tag : scenario.tags) {

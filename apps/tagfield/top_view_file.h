@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The world from above, as the page shows it.
+/// Top view of the world for the page.
 #pragma once
 
 #include <vector>
@@ -11,11 +11,11 @@
 
 namespace tagfield {
 
-/// All that stands in the world, cut from just above the floor to a little above the highest tag or
-/// antenna; empty where there is none.
+/// Outlines of everything in the world, from just above the floor to a little above the highest tag
+/// or antenna; empty if there is none.
 std::vector<Silhouette> outlines_of(const ScenarioWithWorld& loaded);
 
-/// Adds top_view.json with the same where the scenario has a world.
+/// Adds top_view.json with these if the scenario has a world.
 void stage_top_view(const ScenarioWithWorld& loaded, StagedFolder& folder);
 
 }  // namespace tagfield

@@ -121,7 +121,7 @@ int tell(const TrackArguments& arguments, const TrackResult& result, const std::
   return result.complete ? kExitOk : kExitInterrupted;
 }
 
-/// What is written of a scenario's run, or of reads in memory.
+/// Stages the files for a scenario's run, or for reads in memory.
 void stage(const TrackArguments& arguments, const TrackResult& result, StagedFolder& folder) {
   if (is_scenario(arguments.input)) {
     folder.add("reads.csv", reads_to_csv(result.first.reads));
@@ -172,7 +172,7 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
                   "Least and greatest speed of the tags [m/s] (default 0.05 3)")
       ->expected(2)
       ->delimiter(',');
-  // In all other commands it is how fast time goes.
+  // In all other commands it is the speed of simulated time.
   command.add_option("--speed", arguments.old_speeds)
       ->expected(2)
       ->excludes("--speed-range")

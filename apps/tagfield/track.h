@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What `track` was told, and what it makes of reads.
+/// Arguments and results of `track`.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ namespace tagfield {
 struct TrackArguments {
   std::string input;     ///< Reads as CSV, or a scenario.
   std::string poses;     ///< CSV; "" with a scenario.
-  std::string format;    ///< How other people's tables are to be read, or "".
-  std::string scenario;  ///< Besides reads, or "".
+  std::string format;    ///< Format of third-party tables, or "".
+  std::string scenario;  ///< In addition to reads, or "".
   std::vector<std::string> settings;
   std::optional<std::string> method;
   std::vector<double> lane;        ///< X Y HEADING_DEG [SIGMA_M].
   std::vector<double> line;        ///< X Y HEADING_DEG.
   std::vector<double> speeds;      ///< MIN MAX.
-  std::vector<double> old_speeds;  ///< Likewise, by the option's old name.
+  std::vector<double> old_speeds;  ///< Same, by the option's old name.
   bool both_ways = false;
   std::optional<double> acceleration_noise;
   std::optional<double> tag_height_m;
@@ -44,7 +44,7 @@ struct TrackArguments {
   WorldOptions world{};
 };
 
-/// Of --part-reads.
+/// Error message of --part-reads.
 inline constexpr const char* kUselessParts =
     "track: --part-reads can only be used with CSV in Tagfield's own form, not packed, and with "
     "recordings of ROS";
@@ -53,24 +53,23 @@ struct TrackResult {
   TrackSummary summary;
   TrackingRun first;
   bool complete = true;
-  /// Where reads were tracked in parts: the folder with their tracks and verdicts.
+  /// If reads were tracked in parts: the folder with their tracks and verdicts.
   std::shared_ptr<StagedFolder> parts{};
   std::size_t reads_of_parts = 0;
 };
 
-/// What the command line says goes before what the scenario says. Throws Error on what doesn't go
-/// together.
+/// Overrides the scenario's settings with the command line's. Throws Error on conflicting settings.
 void apply(const TrackArguments& arguments, TrackingSpec& spec);
 
-/// The scenario at `path` with what --set replaces.
+/// The scenario at `path` with the overrides of --set.
 ScenarioWithWorld load(const TrackArguments& arguments, const std::string& path,
                        Diagnostics& diagnostics);
 
-/// Adds the runs' outcomes.
+/// Adds the results of the runs.
 void gather(const std::vector<TrackingRun>& runs, TrackSummary& summary);
 
-/// Tracks the tags of a recording of ROS or of tables, in parts on the way to `out` where the reads
-/// don't fit in memory. Throws Error on arguments that don't go with those.
+/// Tracks the tags of a ROS recording or of tables, in parts stored on the path to `out` if the
+/// reads don't fit in memory. Throws Error on arguments that can't be combined with these.
 TrackResult track_reads(const TrackArguments& arguments, const std::string& out,
                         Diagnostics& diagnostics);
 

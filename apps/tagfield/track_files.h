@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What `track` writes, and `run` of a scenario that says where its tags run.
+/// Output files of `track`, and of `run` for a scenario with moving tags.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@
 
 namespace tagfield {
 
-/// Adds tracks, verdicts and orders as tables, the judgement as JSON, the map, and the page if
-/// `with_page`. `first` is the first seed of those in the summary.
+/// Adds tracks, verdicts and orders as tables, the evaluation as JSON, the map, and the page if
+/// `with_page`. `first` is the first of the summary's seeds.
 void stage_tracks(const TrackSummary& summary, const TrackingRun& first, bool with_page,
                   StagedFolder& folder);
 
-/// The same of tracks that TrackTables wrote, of so many tags and reads.
+/// Same, for tracks that TrackTables wrote, with these numbers of tags and reads.
 void stage_summary(const TrackSummary& summary, const TrackingRun& first, std::size_t tags,
                    std::size_t reads, bool with_page, StagedFolder& folder);
 
@@ -32,7 +32,7 @@ class TrackTables {
   std::shared_ptr<GrowingFile> tracks_, verdicts_;
 };
 
-/// All that stage_tracks() may have written earlier.
+/// All files that stage_tracks() may have written earlier.
 const std::vector<std::filesystem::path>& track_file_names();
 
 }  // namespace tagfield

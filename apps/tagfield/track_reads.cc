@@ -23,19 +23,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a table, or of a run.
+/// The folder of a table, or of a run.
 fs::path folder_of_reads(const std::string& reads) {
   return is_folder(reads) ? fs::path(reads) : fs::path(reads).parent_path();
 }
 
-/// Beside reads of a run there is its truth, which judges the tracks and makes none.
+/// The truth beside the reads of a run, which is used to evaluate the tracks only.
 Truth truth_beside(const std::string& reads) {
   const fs::path folder = folder_of_reads(reads);
   if (!is_there(folder / "truth" / "tags.csv")) return {};
   return read_truth(folder.empty() ? "." : folder.string());
 }
 
-/// How tags that were read are to be tracked, and what is known of them.
+/// How tags are to be tracked, and prior knowledge of them.
 struct Task {
   TrackingSpec spec;
   KnownBeforehand known;
@@ -65,7 +65,7 @@ Task task_of(const TrackArguments& arguments, Diagnostics& diagnostics) {
   return task;
 }
 
-/// Reads, poses and truth of tables or, in memory, of a recording of ROS.
+/// Reads, poses and truth of tables or, in memory, of a ROS recording.
 TrackingRun run_of(const TrackArguments& arguments, std::optional<LoadedRecording> recording) {
   TrackingRun run;
   run.seed = arguments.seed.value_or(1);
@@ -103,7 +103,7 @@ TrackResult tracked_whole(const TrackArguments& arguments, Task task,
   return result;
 }
 
-/// Judges nothing where the truth itself doesn't fit in memory.
+/// Empty if the truth itself doesn't fit in memory: tracks are then not evaluated.
 Truth truth_that_fits(const std::string& reads, Diagnostics& diagnostics) {
   const fs::path tags = folder_of_reads(reads) / "truth" / "tags.csv";
   if (is_there(tags) && fs::file_size(tags) > kLargeTable) {
@@ -113,7 +113,7 @@ Truth truth_that_fits(const std::string& reads, Diagnostics& diagnostics) {
   return truth_beside(reads);
 }
 
-/// A table of reads that don't fit in memory, with all else.
+/// A recording from a table of reads that don't fit in memory.
 LoadedRecording stored_table(const TrackArguments& arguments, const TableFiles& files,
                              std::size_t part_reads, const std::string& out,
                              Diagnostics& diagnostics) {
@@ -163,7 +163,7 @@ bool can_be_stored(const TrackArguments& arguments) {
   return is_bag(arguments.input) || (arguments.format.empty() && !is_archive(arguments.input));
 }
 
-/// The table where it is to be tracked in parts.
+/// The table and the reads per part if it is to be tracked in parts.
 std::optional<std::pair<TableFiles, std::size_t>> table_for_parts(const TrackArguments& arguments) {
   if (!can_be_stored(arguments)) return std::nullopt;
   TableFiles files = own_tables("track", arguments.input, arguments.poses);
@@ -172,7 +172,7 @@ std::optional<std::pair<TableFiles, std::size_t>> table_for_parts(const TrackArg
   return std::pair(std::move(files), *part);
 }
 
-/// A recording of ROS, or tables whose reads don't fit in memory.
+/// A ROS recording, or tables whose reads don't fit in memory.
 std::optional<LoadedRecording> recording_of(const TrackArguments& arguments, const std::string& out,
                                             Diagnostics& diagnostics) {
   if (is_bag(arguments.input)) {

@@ -12,7 +12,8 @@
 namespace tagfield {
 namespace {
 
-/// Not so "-", which is often a name for standard input, nor -0.5.
+/// Whether a word looks like an option; neither "-", which often means standard input, nor -0.5
+/// does.
 bool looks_like_option(const std::string& word) {
   return word.size() > 1 && word[0] == '-' &&
          std::isdigit(static_cast<unsigned char>(word[1])) == 0 && word[1] != '.';
@@ -49,7 +50,7 @@ std::string usage_fault(const CLI::App& app, const std::string& what) {
   const std::string more =
       fmt::format("see tagfield {}--help", chosen.empty() ? "" : command.get_name() + " ");
   const std::vector<std::string> extras = command.remaining();
-  // What follows a misspelt option may have been taken for something else, so it comes first.
+  // Words after a misspelt option may have been misinterpreted, so the option is reported first.
   const auto option = std::find_if(extras.begin(), extras.end(), looks_like_option);
   if (option != extras.end()) {
     const std::string name = option->substr(0, option->find('='));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What is wrong with a command line, in one line that helps.
+/// Helpful one-line messages for invalid command lines.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,8 +8,8 @@
 
 namespace tagfield {
 
-/// One line about a command line that `app` could not parse: a command or option that does not
-/// exist, with the nearest that does; else `what` CLI11 says, and whose --help tells more.
+/// One line about a command line that `app` could not parse: for a command or option that does not
+/// exist, the most similar one; otherwise `what` CLI11 reports, and the --help to consult.
 std::string usage_fault(const CLI::App& app, const std::string& what);
 
 }  // namespace tagfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What `tagfield --version` prints.
+/// Output of `tagfield --version`.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace tagfield {
 
-/// "tagfield 0.1.0" and, in lines below it, what it was built from, and with.
+/// "tagfield 0.1.0", followed by lines about the build.
 std::string version_text(const BuildInfo& build);
-/// The same for machines.
+/// Same, machine-readable.
 std::string version_json(const BuildInfo& build);
 
 }  // namespace tagfield

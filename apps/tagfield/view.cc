@@ -20,14 +20,14 @@ namespace tagfield {
 namespace {
 
 struct ViewArguments {
-  std::string run;  ///< A folder, or a recording of ROS.
+  std::string run;  ///< A folder, or a ROS recording.
   std::string scenario;
   std::uint16_t port = 8080;
   std::string listen = "127.0.0.1";
   bool as_json = false;
 };
 
-/// A run that is over: it is looked at, and nothing changes it.
+/// Answers for a finished run, which can only be viewed.
 class RunAnswerer final : public http::Answerer {
  public:
   explicit RunAnswerer(std::string run) : run_(std::move(run)) {}
@@ -49,7 +49,7 @@ class RunAnswerer final : public http::Answerer {
   std::string run_;
 };
 
-/// A folder's own scene goes before what others say of it.
+/// JSON of a run's folder, with the folder's own scene.
 std::string run_in_folder(const ViewArguments& arguments) {
   if (!arguments.scenario.empty()) {
     throw Error("--scenario can only be used with a recording: a run's folder has its world");
@@ -86,7 +86,7 @@ int view(const ViewArguments& arguments) {
   RunAnswerer answerer(is_recording ? run_in_recording(arguments, diagnostics)
                                     : run_in_folder(arguments));
   print_warnings(diagnostics);
-  catch_interrupts();  // Before it says that it is there.
+  catch_interrupts();  // Before the server announces its address.
   const http::HttpServer server(answerer, nullptr, {arguments.listen, arguments.port, ""});
   if (arguments.as_json) {
     print_json_line({{"http", server.url()}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One antenna-tag link by the paper's model: what a reader reports of a tag 3 m away.
+// One antenna-tag link in the paper's model: the reader's report for a tag 3 m away.
 //
 //   build/release/bin/example_one_link
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program of one's own: tags come and go while a robot drives, and are located afterwards.
+// A custom program: tags appear and disappear while a robot drives, and are localized afterwards.
 #include <cstdio>
 
 #include "tagfield/localization/locate.h"

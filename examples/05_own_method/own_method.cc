@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A localization method of one's own: a tag is where its reads are strongest. It is compared with
-// the hyperbolae that come with Tagfield, in one scenario with and without noise of the pose.
+// A custom localization method: a tag is where its reads are strongest. It is compared with
+// Tagfield's hyperbolae, in one scenario with and without pose noise.
 #include <cmath>
 #include <cstdio>
 
@@ -13,14 +13,14 @@
 
 namespace {
 
-// What a user may choose.
+// The method's settings.
 struct CentroidOptions {
-  double power = 1.0;  // Of the received power, by which places are weighted.
+  double power = 1.0;  // Exponent of the received power, as weight of positions.
 };
 
-// The mean of the antenna places that read the tag, weighted by the power that arrived: near the
-// point of the path that is closest to the tag. No phase, so its error is of the order of the
-// path's distance.
+// The mean of the antenna positions at which the tag was read, weighted by the received power: near
+// the point of the path that is closest to the tag. It uses no phase, so its error is of the order
+// of the distance from the path.
 tagfield::TagEstimate centroid(const tagfield::LocalizationProblem& problem, const std::string& tag,
                                const tagfield::SamplesOfTag& samples,
                                const CentroidOptions& options) {
@@ -43,7 +43,7 @@ tagfield::TagEstimate centroid(const tagfield::LocalizationProblem& problem, con
   return estimate;
 }
 
-// Its settings can be given in scenarios and suites as those of any other method.
+// Its settings can be given in scenarios and suites like those of any other method.
 tagfield::Method centroid_method() {
   const tagfield::OptionTable<CentroidOptions> settings{
       {tagfield::setting<CentroidOptions>("power", "", "of the received power, as a weight",
@@ -58,7 +58,7 @@ std::vector<tagfield::Method> all_methods() {
   return methods;
 }
 
-// What a suite's file would say; load_suite() reads one.
+// Equivalent to a suite's file, which load_suite() reads.
 tagfield::Suite comparison(const std::string& scenario) {
   tagfield::Condition exact;
   exact.name = "true pose";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An outlet of one's own: counts each antenna's reads a second, as they come, and how far the tags
-// were that it read.
+// A custom outlet: counts each antenna's reads per second during the run, and tracks the greatest
+// distance of a tag that was read.
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -13,13 +13,13 @@ namespace {
 
 class ReadRate final : public tagfield::ReadListener, public tagfield::TruthListener {
  public:
-  // Stamps never fall, whatever the antenna.
+  // Stamps never decrease, even across antennas.
   void on_read(const tagfield::TagRead& read) override {
     const double second = tagfield::to_seconds(read.stamp);
     if (second >= next_) print(second);
     ++counts_[read.antenna];
   }
-  // The truth comes apart from the reads: a real reader would not tell it.
+  // The truth is separate from the reads: a real reader would not report it.
   void on_distance(const tagfield::TrueDistance& distance) override {
     farthest_m_ = std::max(farthest_m_, distance.distance_m);
   }

@@ -15,10 +15,10 @@ std::string prefixed(const Location& location, const std::string& message) {
 }
 
 constexpr std::size_t kLongestLine = 4000;
-/// So many alike become one.
+/// At least this many similar warnings are merged.
 constexpr std::size_t kMany = 3;
 
-/// "FILE:LINE: words" apart; `line` is 0 where it is not of that form.
+/// "FILE:LINE: words" split into its parts; `line` is 0 if the text has another form.
 struct Placed {
   std::string file;
   std::string words;  ///< "antennas[].range_m …": without numbers in brackets.
@@ -59,7 +59,7 @@ std::string escape_of(char c) {
   return {'\\', 'x', kDigits[code / 16], kDigits[code % 16]};
 }
 
-/// Not in the middle of a UTF-8 character.
+/// The next start of a UTF-8 character.
 std::size_t character_from(const std::string& text, std::size_t at) {
   while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U) ++at;
   return at;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Mathematical functions for loops over arrays (lanes.h): without branches or calls, of additions,
-/// multiplications, divisions, roots and integers alone. Every machine and every width of its
-/// registers gives the same bits, as long as no product and sum become one instruction
-/// (-ffp-contract=off). Errors are bounds that tests check against `long double`.
+/// Mathematical functions for loops over arrays (lanes.h): without branches or calls, built only
+/// from additions, multiplications, divisions, square roots and integer operations. Results are
+/// bit-identical on every machine and for every register width, as long as no product and sum are
+/// fused into one instruction (-ffp-contract=off). The stated error bounds are tested against `long
+/// double`.
 #pragma once
 
 #include <cmath>
@@ -26,7 +27,7 @@ inline double double_of_bits(std::uint64_t bits) {
   return x;
 }
 
-/// `yes` where `condition`, else `no`, both of which are computed.
+/// `yes` if `condition`, else `no`; both are evaluated.
 inline double choose(bool condition, double yes, double no) {
   const std::uint64_t mask = std::uint64_t{0} - static_cast<std::uint64_t>(condition);
   return double_of_bits((bits_of(yes) & mask) | (bits_of(no) & ~mask));
@@ -34,8 +35,8 @@ inline double choose(bool condition, double yes, double no) {
 
 namespace lane_internal {
 
-/// Both halves of a 64-bit number are exact as the last digits of 2⁸⁴ and of 2⁵²; `offset` is taken
-/// from their sum, which is rounded once.
+/// Each half of a 64-bit number is placed exactly in the last digits of 2⁸⁴ or 2⁵². `offset` is
+/// subtracted from their sum, which is rounded once.
 inline double from_halves(std::uint64_t word, double offset) {
   const double high = double_of_bits((word >> 32U) | 0x4530000000000000U) - (offset + 0x1p52);
   return high + double_of_bits((word & 0xffffffffU) | 0x4330000000000000U);
@@ -54,8 +55,8 @@ inline Scaled scaled(double x) {
           double_of_bits(biased | 0x4330000000000000U) - (0x1p52 + 1023.0)};
 }
 
-/// ln(1 + f) = f − s·(f − r) with s = f/(2 + f) and r = 2·(s²/3 + s⁴/5 + …), as ln(1 + f) is
-/// 2·artanh s: f and what is to be taken from it. |s| < 0.172; what is left out is below 2⁻⁶⁰.
+/// The difference f − ln(1 + f) = s·(f − r), with s = f/(2 + f) and r = 2·(s²/3 + s⁴/5 + …), as
+/// ln(1 + f) = 2·artanh s. |s| < 0.172; the truncation error is below 2⁻⁶⁰.
 inline double less_in_log(double f) {
   const double s = f / (2.0 + f);
   const double z = s * s;
@@ -73,8 +74,8 @@ inline double less_in_log(double f) {
   return s * (f - 2.0 * z * r);
 }
 
-/// (sin r − r)/r³ and (cos r − 1 + r²/2)/r⁴ for |r| ≤ π/4, with z = r²: Taylor's series, of which
-/// what is left out of sine and cosine is below 2⁻⁶⁰ and 2⁻⁵⁸.
+/// (sin r − r)/r³ and (cos r − 1 + r²/2)/r⁴ for |r| ≤ π/4, with z = r²: Taylor series, whose
+/// truncation errors in sine and cosine are below 2⁻⁶⁰ and 2⁻⁵⁸.
 inline double sine_series(double z) {
   double s = 1.0 / 355687428096000.0;
   s = s * z - 1.0 / 1307674368000.0;
@@ -97,28 +98,28 @@ inline double cosine_series(double z) {
 
 }  // namespace lane_internal
 
-/// The double next to a whole number of 64 bits, as a conversion gives it.
+/// The double nearest to an unsigned 64-bit integer, as a conversion yields it.
 inline double lane_double(std::uint64_t word) { return lane_internal::from_halves(word, 0x1p84); }
-/// Likewise of the bits of a signed one.
+/// Same, for the bits of a signed integer.
 inline double lane_double_signed(std::uint64_t word) {
   return lane_internal::from_halves(word ^ (std::uint64_t{1} << 63U), 0x1p84 + 0x1p63);
 }
 
 /// ln x of a normal x > 0, within 1 unit in the last place.
 inline double lane_log(double x) {
-  constexpr double kLn2High = 0x1.62e42feep-1;  // ln 2 to 32 bits, and the rest.
+  constexpr double kLn2High = 0x1.62e42feep-1;  // ln 2 to 32 bits, and the remainder.
   constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
   const auto [m, k] = lane_internal::scaled(x);
   const double f = m - 1.0;
   return k * kLn2High + (f - (lane_internal::less_in_log(f) - k * kLn2Low));
 }
 
-/// ln x of a normal x > 0, within 2 units in the last place: with m·2^k as Scaled has it and
-/// f = m − 1, f − f²/2 + f³ P(f), where P meets (ln(1 + f) − f + f²/2)/f³ at Chebyshev's points.
+/// ln x of a normal x > 0, within 2 units in the last place: with m·2^k as in Scaled and f = m − 1,
+/// ln m = f − f²/2 + f³ P(f), where P interpolates (ln(1 + f) − f + f²/2)/f³ at Chebyshev nodes.
 inline float lane_log(float x) {
   constexpr std::uint32_t kOne = 0x3f800000U;
   constexpr std::uint32_t kRootOfHalf = 0x3f3504f3U;
-  constexpr float kLn2High = 0x1.62e4p-1f;  // ln 2 to 15 bits, and the rest.
+  constexpr float kLn2High = 0x1.62e4p-1f;  // ln 2 to 15 bits, and the remainder.
   constexpr float kLn2Low = 0x1.7f7d1cp-20f;
   std::uint32_t bits = 0;
   std::memcpy(&bits, &x, sizeof bits);
@@ -142,7 +143,7 @@ inline float lane_log(float x) {
 
 /// log10 x of a normal x > 0, within 3 units in the last place.
 inline double lane_log10(double x) {
-  constexpr double kLog2High = 0x1.34413508p-2;  // log10 2 to 32 bits, and the rest.
+  constexpr double kLog2High = 0x1.34413508p-2;  // log10 2 to 32 bits, and the remainder.
   constexpr double kLog2Low = 0x1.f79fef311f12bp-34;
   const auto [m, k] = lane_internal::scaled(x);
   const double f = m - 1.0;
@@ -150,16 +151,16 @@ inline double lane_log10(double x) {
   return k * kLog2High + (of_m + k * kLog2Low);
 }
 
-/// eˣ of x ≤ 700, within 2 units in the last place; e⁻⁷⁰⁰ below −700.
+/// eˣ for x ≤ 700, within 2 units in the last place; e⁻⁷⁰⁰ for x < −700.
 inline double lane_exp(double x) {
-  constexpr double kLn2High = 0x1.62e42feep-1;  // ln 2 to 32 bits, and the rest.
+  constexpr double kLn2High = 0x1.62e42feep-1;  // ln 2 to 32 bits, and the remainder.
   constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
   constexpr double kToWhole = 0x1.8p52;
   const double bounded = choose(x < -700.0, -700.0, x);
   const double shifted = bounded * std::numbers::log2e + kToWhole;
   const double k = shifted - kToWhole;
   const double r = (bounded - k * kLn2High) - k * kLn2Low;
-  // Taylor's series of (eʳ − 1 − r)/r² for |r| < 0.35; what is left out is below 2⁻⁵⁷.
+  // Taylor series of (eʳ − 1 − r)/r² for |r| < 0.35; the truncation error is below 2⁻⁵⁷.
   double e = 1.0 / 6227020800.0;
   e = e * r + 1.0 / 479001600.0;
   e = e * r + 1.0 / 39916800.0;
@@ -172,7 +173,7 @@ inline double lane_exp(double x) {
   e = e * r + 1.0 / 24.0;
   e = e * r + 1.0 / 6.0;
   e = e * r + 0.5;
-  // Times 2ᵏ, in the exponent's bits.
+  // Multiply by 2ᵏ by adding k to the exponent bits.
   return double_of_bits(bits_of(1.0 + (r + r * r * e)) + (bits_of(shifted) << 52U));
 }
 
@@ -181,9 +182,9 @@ struct SineCosine {
   double cosine;
 };
 
-/// Of |x| ≤ 10⁵ [rad], within 1 unit in the last place of each.
+/// Sine and cosine for |x| ≤ 10⁵ [rad], each within 1 unit in the last place.
 inline SineCosine lane_sine_cosine(double x) {
-  // π/2 in three parts, so that whole multiples of the first two are exact.
+  // π/2 in three parts, so that integer multiples of the first two are exact.
   constexpr double kFirst = 0x1.921fb544p+0;
   constexpr double kSecond = 0x1.0b4611a6p-34;
   constexpr double kThird = 0x1.3198a2e037073p-69;
@@ -194,7 +195,7 @@ inline SineCosine lane_sine_cosine(double x) {
   const double b = quarters * kSecond;
   const double c = a - b;
   const double lost = quarters * kThird - ((a - c) - b);
-  // The angle within its quarter is r + rest.
+  // The angle within its quadrant is r + rest.
   const double r = c - lost;
   const double rest = (c - r) - lost;
   const double z = r * r;
@@ -210,13 +211,13 @@ inline SineCosine lane_sine_cosine(double x) {
           double_of_bits((bits_of(cosine) ^ swap) ^ (((quarter + 1U) & 2U) << 62U))};
 }
 
-/// Two draws of N(0, 1) from two words of a stream, as standard_normal_pair() makes them.
+/// Two draws from N(0, 1) out of two words of a stream, as standard_normal_pair() makes them.
 struct NormalPair {
   double first;
   double second;
 };
 inline NormalPair lane_normal_pair(std::uint64_t first, std::uint64_t second) {
-  // Evenly over (−1, 1) and over (0, 1].
+  // Uniform over (−1, 1) and over (0, 1].
   const double around = lane_double_signed(first) * 0x1p-63 + 0x1p-64;
   const double even = lane_double(second) * 0x1p-64 + 0x1p-65;
   const auto [sine, cosine] = lane_sine_cosine(kPi * around);
@@ -224,7 +225,7 @@ inline NormalPair lane_normal_pair(std::uint64_t first, std::uint64_t second) {
   return {sine * radius, cosine * radius};
 }
 
-/// std::round() of |x| < 2⁵¹: halves away from zero. 0 is +0.
+/// std::round() for |x| < 2⁵¹: halves are rounded away from zero. Zero is always +0.
 inline double lane_round(double x) {
   constexpr double kToWhole = 0x1.8p52;
   const double even = (x + kToWhole) - kToWhole;
@@ -233,19 +234,19 @@ inline double lane_round(double x) {
   return choose(x < 0.0 && over == -0.5, even - 1.0, away) + 0.0;
 }
 
-/// std::fmod(x, y) where 0 ≤ x < 2²⁰·y, exactly; both normal, y not below 2⁻⁹⁰⁰.
+/// std::fmod(x, y) for 0 ≤ x < 2²⁰·y, exact; both normal, y ≥ 2⁻⁹⁰⁰.
 inline double lane_remainder(double x, double y) {
   constexpr double kToWhole = 0x1.8p52;
   const double whole = (x / y + kToWhole) - kToWhole;
-  // y in two parts, of which whole multiples are exact; so are both differences.
+  // y in two parts whose integer multiples are exact, and so are both differences.
   const double high = double_of_bits(bits_of(y) & 0xfffffffff8000000U);
   const double nearest = (x - whole * high) - whole * (y - high);
   return choose(nearest < 0.0, nearest + y, nearest);
 }
 
-/// wrap_to_two_pi() of angles above −2π and below 6π, where it is the same to the last bit.
+/// wrap_to_two_pi() for angles above −2π and below 6π, where the result is bit-identical.
 inline double lane_wrap_to_two_pi(double angle) {
-  // Differences of numbers no more than a factor 2 apart are exact.
+  // The difference of two numbers within a factor of 2 of each other is exact.
   const double twice = choose(angle >= 2.0 * kTwoPi, angle - 2.0 * kTwoPi, angle);
   const double below = choose(twice >= kTwoPi, twice - kTwoPi, twice);
   const double wrapped = choose(below < 0.0, below + kTwoPi, below);

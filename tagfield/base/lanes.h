@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Loops over arrays in the widest vector instructions that the machine has. See
-/// docs/architecture.md.
+/// Loops over arrays with the widest vector instructions of the machine. See docs/architecture.md.
 #pragma once
 
 #include <vector>
 
 namespace tagfield {
 
-/// Sets of instructions that loops are compiled for.
+/// Instruction sets that loops are compiled for.
 enum class InstructionSet {
-  kBaseline,  ///< Of every machine that the program runs on: SSE2, NEON.
+  kBaseline,  ///< On every machine that the program runs on: SSE2, NEON.
   kAvx2,
   kAvx512,
 };
 
-/// Those of this machine, the widest last.
+/// The sets that this machine supports, the widest last.
 const std::vector<InstructionSet>& instruction_sets();
 
 namespace lane_internal {
@@ -25,7 +24,7 @@ template <class Loops>
 [[gnu::target("avx2,bmi2"), gnu::flatten]] void run_avx2(const Loops& loops) {
   loops();
 }
-#if defined(__clang__)  // It has no such preference, and warns of it.
+#if defined(__clang__)  // Clang has no such preference, and would warn.
 template <class Loops>
 [[gnu::target("avx512f,avx512dq,avx512vl,avx512bw,bmi2"), gnu::flatten]] void run_avx512(
     const Loops& loops) {
@@ -43,9 +42,9 @@ run_avx512(const Loops& loops) {
 
 }  // namespace lane_internal
 
-/// Calls `loops()`, compiled for the instruction set with all that it calls and that is visible.
-/// What has no branches (lane_math.h) goes several lanes at once; results are the same bits for
-/// each set in rooms that tagfield_plain_arithmetic() is told of.
+/// Calls `loops()`, compiled for the instruction set together with every visible function that it
+/// calls. Branch-free code (lane_math.h) is vectorized. Results are bit-identical for all sets in
+/// rooms built with tagfield_plain_arithmetic().
 template <class Loops>
 void in_lanes(InstructionSet set, const Loops& loops) {
 #if defined(__x86_64__) && defined(__GNUC__)

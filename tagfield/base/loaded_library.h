@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Shared libraries that are loaded when they are first needed: linked, those of outlets and of
-/// other parts that few runs use would come with every start, and double what it takes.
+/// Shared libraries that are loaded on first use. If they were linked, those of outlets and of
+/// other rarely used parts would be loaded at every start, and double the start-up time.
 #pragma once
 
 #include <string>
 
 namespace tagfield {
 
-/// The address of a function, which becomes a pointer of the type that is asked for.
+/// The address of a function, convertible to a pointer of the requested type.
 class LoadedFunction {
  public:
   explicit LoadedFunction(void* address) : address_(address) {}
@@ -21,7 +21,7 @@ class LoadedFunction {
   void* address_;
 };
 
-/// A library that stays loaded until the process ends. To be derived from, with a member for each
+/// A library that stays loaded until the process ends. Derive from it, with a member for each
 /// function that is used:
 ///
 ///     struct LibExample : LoadedLibrary {
@@ -30,12 +30,12 @@ class LoadedFunction {
 ///     };
 class LoadedLibrary {
  public:
-  /// `file` is a name that the system's loader finds, or a path. Throws Error, which begins with
-  /// `purpose`, where it can't be loaded.
+  /// `file` is a name that the system's loader finds, or a path. Throws Error, whose message begins
+  /// with `purpose`, if it can't be loaded.
   LoadedLibrary(std::string purpose, std::string file);
 
  protected:
-  /// Throws Error where the library has none of that name.
+  /// Throws Error if the library has no function of that name.
   [[nodiscard]] LoadedFunction function(const char* name) const;
 
  private:
@@ -44,8 +44,8 @@ class LoadedLibrary {
   void* handle_;
 };
 
-/// The one of a type that is derived from LoadedLibrary, loaded the first time that it is called.
-/// From any thread. Throws Error where it is not there.
+/// The single instance of a type derived from LoadedLibrary, loaded on the first call. Thread-safe.
+/// Throws Error if the library is missing.
 template <typename Library>
 const Library& loaded() {
   static const Library library;

@@ -12,13 +12,14 @@ namespace tagfield {
 
 std::optional<double> parse_number(const std::string& text) {
 #ifdef __cpp_lib_to_chars
-  // Most numbers; it takes no '+', and says no more of what is too small than of what is too large.
+  // Handles most numbers; but std::from_chars accepts no '+', and reports underflow and overflow
+  // alike.
   double plain_value = 0.0;
   const char* end = text.data() + text.size();
   const auto [parsed, problem] = std::from_chars(text.data(), end, plain_value);
   if (problem == std::errc{} && parsed == end && std::isfinite(plain_value)) return plain_value;
 #endif
-  // std::from_chars reads no double before GCC 11, and std::strtod obeys the process's locale.
+  // std::from_chars for double needs GCC 11, and std::strtod obeys the process's locale.
   static const locale_t plain = newlocale(LC_ALL_MASK, "C", nullptr);
   if (text.empty() || text.find_first_not_of("+-.0123456789eE") != std::string::npos) return {};
   char* after = nullptr;

@@ -8,8 +8,8 @@
 
 namespace tagfield {
 
-/// The finite decimal number that the whole of `text` is ("-1.5", "+3", "2e-3"); none for anything
-/// else: spaces, "nan", "inf", hexadecimal, or a number beyond the largest double.
+/// `text` as a finite decimal number ("-1.5", "+3", "2e-3"), if the whole of it is one; nullopt for
+/// anything else: spaces, "nan", "inf", hexadecimal, or a number above the largest double.
 std::optional<double> parse_number(const std::string& text);
 
 }  // namespace tagfield

@@ -53,10 +53,10 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   try {
     for (std::size_t i = 1; i < helpers; ++i) pool.emplace_back(work);
   } catch (const std::system_error&) {
-    // The machine gives no more threads; those that there are do the work.
+    // The machine can't start more threads; the existing ones do the work.
   }
   work();
-  pool.clear();  // Waits for all.
+  pool.clear();  // Waits for all threads.
   first_error.rethrow();
 }
 

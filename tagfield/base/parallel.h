@@ -8,10 +8,10 @@
 
 namespace tagfield {
 
-/// Calls `body(i)` once for each i in [0, count), on up to `threads` threads (at least one, fewer
-/// where the machine gives no more), in no set order. Bodies must not share what they write. An
-/// exception thrown by a body stops the loop and is thrown again here; where several throw, that of
-/// the lowest i among those.
+/// Calls `body(i)` once for each i in [0, count), on up to `threads` threads (at least one; fewer
+/// if the machine can't start more), in no particular order. Bodies must not write to shared data.
+/// An exception thrown by a body stops the loop and is rethrown here; if several bodies throw, the
+/// exception of the lowest such i.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
 
 }  // namespace tagfield

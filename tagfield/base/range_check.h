@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Checks of what is set, with one form of complaint: "NAME must be EXPECTED, is VALUE".
+/// Checks of settings, with one form of error message: "NAME must be EXPECTED, is VALUE".
 #pragma once
 
 #include <string_view>
 
 namespace tagfield {
 
-/// The most that a length or a coordinate may be set to [m]: no hall is longer, and what is told in
-/// other units or by mistake mostly is.
+/// Upper limit of lengths and coordinates in settings [m]: no hall is longer, but values in wrong
+/// units or entered by mistake mostly are.
 inline constexpr double kMostLength_m = 1e5;
 
-/// The same of places in tables and bags, which may be sums of several of those.
+/// Same, for positions in tables and bags, which may be sums of several such lengths.
 inline constexpr double kMostCoordinate_m = 1e6;
 
 /// Throws Error unless `holds`.
 void require(bool holds, std::string_view name, std::string_view expected, double value);
 
-/// Throws Error unless `value` is from `least` to `most`; both are told in `unit`, if there is one.
+/// Throws Error unless `value` is from `least` to `most`; the message gives both in `unit`, if
+/// there is one.
 void require_in_range(std::string_view name, double value, double least, double most,
                       std::string_view unit = "");
 

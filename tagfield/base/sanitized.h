@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What is built with sanitizers, by GCC or Clang.
+/// Detection of builds with sanitizers, by GCC or Clang.
 #pragma once
 
 namespace tagfield {
 
-/// Whether this is a build with the address or thread sanitizer. They reserve address space by the
-/// terabyte, so that a process's memory cannot be limited there.
+/// Whether this is a build with the address or thread sanitizer. These reserve terabytes of address
+/// space, so a process's memory can't be limited there.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #elif defined(__has_feature)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Keys that set the members of plain structs: what each is for, what it may be, how its value is
-/// taken. One table of them serves files, the command line and what people are told.
+/// Keys that set the members of plain structs: the meaning of each, its allowed values, and how a
+/// value is parsed. One table of them serves files, the command line and the help texts.
 #pragma once
 
 #include <algorithm>
@@ -15,56 +15,57 @@
 
 namespace tagfield {
 
-/// A parameter of an antenna or a tag as it stood in the file; rooms further on give it meaning.
+/// A parameter of an antenna or a tag as written in the file; other rooms interpret it.
 struct RawParameter {
   std::string key;
   std::string value;
-  Location location;  ///< Unknown where the file is not.
-  /// From a profile, which says all of a device, though some of it may be of no use here.
+  Location location;  ///< Empty if the file is unknown.
+  /// It comes from a profile, which describes a device completely, though some of it may not apply
+  /// here.
   bool in_profile = false;
 };
 
-/// A key, its unit and meaning.
+/// A key with its unit and meaning.
 struct SettingHelp {
   std::string key;
-  std::string unit;  ///< Or its words, "a | b".
+  std::string unit;  ///< Or the allowed words, "a | b".
   std::string meaning;
-  std::string range{};      ///< "over 0"; "" where the meaning says it.
-  std::string otherwise{};  ///< What holds where it is not given; "" where the meaning says it.
+  std::string range{};      ///< "over 0"; "" if the meaning includes it.
+  std::string otherwise{};  ///< The default; "" if the meaning includes it.
 };
 
-/// One key: what it is for, and how its value gets into a T. Throws Error without the place.
+/// One key: its help, and how a value is written into a T. Throws Error without the location.
 template <class T>
 struct Setting {
   SettingHelp help;
   std::function<void(T&, const std::string&)> set;
-  std::function<std::string(const T&)> text{};  ///< The value, as `set` takes it; not of all.
+  std::function<std::string(const T&)> text{};  ///< The value as `set` accepts it; optional.
 };
 
-// What a value's text is. Each throws Error that says what was expected, without the place.
+// Parsers of a value's text. Each throws Error that says what was expected, without the location.
 
 double number_in(const std::string& text);
 int whole_in(const std::string& text);
 bool truth_in(const std::string& text);
 std::vector<std::string> words_in(const std::string& text);
 std::vector<double> numbers_in(const std::string& text);
-/// Which of the choices it is.
+/// The index of the choice that the text names.
 std::size_t choice_in(const std::string& text, const std::vector<std::string>& choices);
 
 /// "a | b | c".
 std::string one_of(const std::vector<std::string>& choices);
 
-/// What a number may be: from `least`, or over it, to `most`.
+/// The allowed range of a number: from `least`, or strictly above it, to `most`.
 struct ValueRange {
   double least = 0.0;
-  bool over = false;  ///< `least` itself is out of it.
+  bool over = false;  ///< `least` itself is excluded.
   double most = 1e15;
 };
 inline constexpr ValueRange kOverZero{0.0, true};
 inline constexpr ValueRange kAtLeastZero{};
 inline constexpr ValueRange kAtLeastOne{1.0};
 
-/// The same, but no length over kMostLength_m; goes without saying in helps.
+/// Same, but lengths are limited to kMostLength_m; help texts don't mention this limit.
 ValueRange limited(ValueRange range, const std::string& unit);
 
 /// "over 0 and at most 1".
@@ -73,7 +74,7 @@ double number_in(const std::string& text, const ValueRange& range);
 double whole_number_in(const std::string& text, const ValueRange& range);
 std::string text_of(double number);
 
-/// A member that is a number of any kind.
+/// A setting of a numeric member of any type.
 template <class T, class Owner, class Number>
 Setting<T> setting(const char* key, const char* unit, const char* meaning, Number Owner::*member,
                    const ValueRange& range) {
@@ -86,7 +87,7 @@ Setting<T> setting(const char* key, const char* unit, const char* meaning, Numbe
           [member](const T& model) { return text_of(static_cast<double>(model.*member)); }};
 }
 
-/// A member that is true or false.
+/// A setting of a Boolean member.
 template <class T, class Owner>
 Setting<T> setting(const char* key, const char* meaning, bool Owner::*member) {
   return {{key, "true | false", meaning},
@@ -94,7 +95,7 @@ Setting<T> setting(const char* key, const char* meaning, bool Owner::*member) {
           [member](const T& model) { return model.*member ? "true" : "false"; }};
 }
 
-/// Null where the table has no such key.
+/// Null if the table has no such key.
 template <class T>
 const Setting<T>* find_setting(const std::vector<Setting<T>>& table, const std::string& key) {
   const auto found = std::find_if(table.begin(), table.end(), [&](const Setting<T>& setting) {
@@ -103,7 +104,7 @@ const Setting<T>* find_setting(const std::vector<Setting<T>>& table, const std::
   return found == table.end() ? nullptr : &*found;
 }
 
-/// What people are told of a table; of settings that can say it, with the values of `defaults`.
+/// The help texts of a table; settings that have `text` include the values of `defaults`.
 template <class T>
 std::vector<SettingHelp> helps_of(const std::vector<Setting<T>>& table, const T& defaults = {}) {
   std::vector<SettingHelp> all;
@@ -115,11 +116,11 @@ std::vector<SettingHelp> helps_of(const std::vector<Setting<T>>& table, const T&
   return all;
 }
 
-/// Whether there is help on that key.
+/// Whether there is a help text for that key.
 bool has_key(const std::vector<SettingHelp>& helps, const std::string& key);
 
-/// Sets `model` by those of the parameters that the table has, later ones before earlier ones.
-/// Throws Error "FILE:LINE: KEY …" on a value that is none or out of its range.
+/// Sets members of `model` from the parameters whose keys are in the table; later ones override
+/// earlier ones. Throws Error "FILE:LINE: KEY …" on a value that is invalid or out of range.
 template <class T>
 void apply_settings(const std::vector<Setting<T>>& table,
                     const std::vector<RawParameter>& parameters, T& model) {
@@ -134,7 +135,7 @@ void apply_settings(const std::vector<Setting<T>>& table,
   }
 }
 
-/// Throws Error "KEY …" on a member that its setting would refuse.
+/// Throws Error "KEY …" on a member whose value its setting would refuse.
 template <class T>
 void check_settings(const std::vector<Setting<T>>& table, T model) {
   for (const Setting<T>& setting : table) {
@@ -142,7 +143,7 @@ void check_settings(const std::vector<Setting<T>>& table, T model) {
   }
 }
 
-/// The place of the parameter that a complaint names first, or `otherwise`.
+/// The location of the parameter that an error message names first, or `otherwise`.
 Location place_of(const std::string& complaint, const std::vector<RawParameter>& parameters,
                   const Location& otherwise);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The nearest known word to a misspelt one, for error messages.
+/// The known word closest to a misspelt one, for error messages.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace tagfield {
 
-/// Fewest insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`
-/// (the optimal string alignment distance).
+/// Minimum number of insertions, deletions, substitutions and swaps of adjacent characters that
+/// turn `a` into `b` (the optimal string alignment distance).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The word of `known` nearest to `word`: the first that begins with it, or else the one of least
-/// edit distance; "" where none is near (over half of it differs).
+/// The word of `known` closest to `word`: the first that begins with it, else the one with the
+/// smallest edit distance; "" if none is close (over half of it differs).
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
 
-/// " (did you mean 'frequency'?)", or " (known: a, b, c)" where no word is near.
+/// " (did you mean 'frequency'?)", or " (known: a, b, c)" if no word is close.
 std::string suggestion(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace tagfield

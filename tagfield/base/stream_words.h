@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Words of many random streams at once.
+/// Words of many random streams in one batch.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace tagfield {
 
-/// The first two words of each stream (seed, purpose, a, b[i], c), into `first` and `second`, which
-/// are as long as `b`.
+/// Writes the first two words of each stream (seed, purpose, a, b[i], c) to `first` and `second`,
+/// which are as long as `b`.
 void first_words(std::uint64_t seed, Purpose purpose, std::uint64_t a,
                  std::span<const std::uint64_t> b, std::uint64_t c, std::span<std::uint64_t> first,
                  std::span<std::uint64_t> second);

@@ -14,10 +14,10 @@ namespace tagfield {
 namespace {
 
 constexpr double kMostSeconds = 9.2e9;  // 2^63 ns
-constexpr double kMostStamp = 4.6e9;    // Any two stamps' difference is a duration.
+constexpr double kMostStamp = 4.6e9;    // The difference of any two stamps is a Duration.
 constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 
-/// "123.25" read digit by digit, because a double holds today's Unix time only to 0.2 µs.
+/// Parses "123.25" digit by digit, because a double resolves today's Unix time only to 0.2 µs.
 bool parse_plain_decimal(const std::string& text, std::int64_t& nanos) {
   std::size_t i = 0;
   const bool negative = !text.empty() && text[0] == '-';

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Sine, cosine and the angle of a vector for poses, of additions, multiplications and divisions
-/// alone: the same bits on every machine. A C library takes other instructions where a processor
-/// has more (fused multiply-add), with another last digit now and then, which a robot's way carries
-/// on.
+/// Sine, cosine and arctangent for poses, from additions, multiplications and divisions only, so
+/// that results are bit-identical on every machine. A C library uses other instructions on
+/// processors that have more (fused multiply-add), which changes a last digit now and then, and the
+/// error would propagate along a robot's trajectory.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace tagfield {
 
-/// Both of an angle [rad], within 1 unit in the last place for |x| ≤ 10⁵ and 10⁻¹⁶·|x| beyond. NaN
-/// of what is not finite.
+/// Sine and cosine of an angle [rad], within 1 unit in the last place for |x| ≤ 10⁵ and 10⁻¹⁶·|x|
+/// above. NaN if x is not finite.
 inline SineCosine sine_cosine(double x) {
   if (std::abs(x) <= 1e5) return lane_sine_cosine(x);
   if (!std::isfinite(x)) {
@@ -47,8 +47,8 @@ inline constexpr std::array<double, 17> kArcTangents = {0x0.0p+0,
                                                         0x1.819d0b7158a4dp-1,
                                                         0x1.921fb54442d18p-1};
 
-/// arctan of 0 ≤ x ≤ 1: from the nearest of the table, arctan x − arctan c = arctan((x − c)/(1 +
-/// c·x)), by Taylor's series for |t| ≤ 1/32; what is left out is below 2⁻⁶⁵ of it.
+/// arctan x for 0 ≤ x ≤ 1: with c the nearest table entry, arctan x − arctan c = arctan((x − c)/(1
+/// + c·x)), by Taylor series for |t| ≤ 1/32; the relative truncation error is below 2⁻⁶⁵.
 inline double arc_tangent_up_to_one(double x) {
   const double nearest = std::floor(16.0 * x + 0.5);
   const double c = nearest / 16.0;
@@ -64,8 +64,8 @@ inline double arc_tangent_up_to_one(double x) {
 
 }  // namespace trigonometry_internal
 
-/// The angle [rad] of the vector (x, y), in [−π, π], as std::atan2(y, x) gives it, within 3 units
-/// in the last place. NaN where one of them is not finite.
+/// The angle [rad] of the vector (x, y), in [−π, π], like std::atan2(y, x), within 3 units in the
+/// last place. NaN if either is not finite.
 inline double arc_tangent(double y, double x) {
   const double along = std::abs(x);
   const double across = std::abs(y);

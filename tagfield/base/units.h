@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Constants and conversions. All quantities are SI; a name's suffix gives the unit where it is
-/// not the plain SI one or could be mistaken (`_dbm`, `_hz`, `_rad`).
+/// Constants and conversions. All quantities are SI; a suffix of the name gives the unit where it
+/// is not the plain SI unit or could be mistaken (`_dbm`, `_hz`, `_rad`).
 #pragma once
 
 #include <algorithm>
@@ -21,26 +21,26 @@ inline double wavelength(double frequency_hz) { return kSpeedOfLight / frequency
 inline constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
 inline constexpr double degrees(double radians) { return radians * (180.0 / kPi); }
 
-/// Gain of a half-wave dipole [dBi], which is EIRP over ERP.
+/// Gain of a half-wave dipole [dBi], the ratio of EIRP to ERP.
 inline constexpr double kDipole_dbi = 2.15;
 
-/// Weaker than anything that could be received, so that no logarithm of zero comes out [dB].
+/// Weaker than anything that can be received; avoids the logarithm of zero [dB].
 inline constexpr double kNothing_db = -400.0;
 
-/// A ratio of powers in decibels, `kNothing_db` or more; of milliwatts, in dBm.
+/// A power ratio in decibels, at least `kNothing_db`; of milliwatts, in dBm.
 inline double to_db(double power) {
   return power > 0.0 ? std::max(kNothing_db, 10.0 * std::log10(power)) : kNothing_db;
 }
-/// A ratio of powers from decibels; from dBm, in milliwatts.
+/// A power ratio from decibels; from dBm, in milliwatts.
 inline double from_db(double db) { return std::pow(10.0, db / 10.0); }
-/// A ratio of amplitudes from decibels.
+/// An amplitude ratio from decibels.
 inline double amplitude_from_db(double db) { return std::pow(10.0, db / 20.0); }
-/// A ratio of amplitudes > 0 in decibels.
+/// An amplitude ratio > 0 in decibels.
 inline double amplitude_to_db(double amplitude) { return 20.0 * std::log10(amplitude); }
 
 /// `angle` [rad] wrapped to [0, 2π). Finite for every finite input; never 2π itself.
 inline double wrap_to_two_pi(double angle) {
-  // Within a turn or two, where almost all angles are, the remainder is one exact subtraction away.
+  // Within a turn or two, where almost all angles are, one exact subtraction gives the remainder.
   double wrapped = angle >= 2.0 * kTwoPi || angle <= -kTwoPi ? std::fmod(angle, kTwoPi) : angle;
   if (wrapped >= kTwoPi) wrapped -= kTwoPi;
   if (wrapped < 0.0) wrapped += kTwoPi;

@@ -14,7 +14,7 @@ namespace {
 using std::chrono::minutes;
 constexpr minutes kMostZone = std::chrono::hours(14);
 
-/// Takes digits off the front of `rest`; -1 where there are not so many.
+/// Takes `digits` digits off the front of `rest`; -1 if there are fewer.
 int take_number(std::string& rest, std::size_t digits) {
   const std::string text = rest.substr(0, digits);
   if (text.size() != digits || text.find_first_not_of("0123456789") != std::string::npos) return -1;
@@ -28,7 +28,7 @@ bool take(std::string& rest, char c) {
   return true;
 }
 
-/// ".25" as nanoseconds; none without a point. -1 where no digit follows it.
+/// ".25" as nanoseconds; 0 without a decimal point, -1 if no digit follows it.
 std::int64_t take_fraction(std::string& rest) {
   if (!take(rest, '.')) return 0;
   std::int64_t nanoseconds = 0;
@@ -41,7 +41,7 @@ std::int64_t take_fraction(std::string& rest) {
   return digits == 0 ? -1 : nanoseconds;
 }
 
-/// "Z" or "+01:00"; none where it is neither.
+/// "Z" or "+01:00"; false if it is neither.
 bool take_zone(std::string& rest, minutes& zone) {
   if (take(rest, 'Z')) return true;
   const bool is_west = !rest.empty() && rest.front() == '-';
@@ -76,7 +76,7 @@ bool take_clock(std::string& rest, tm& civil) {
       fmt::format("'{}' must be a time such as 2020-01-01T00:00:00Z, from 1830 to 2114", text));
 }
 
-/// Seconds since 1970; refuses what no calendar has, as February 30th.
+/// Seconds since 1970; refuses dates that don't exist, such as February 30th.
 std::int64_t seconds_of(const tm& civil, const std::string& text) {
   tm normal = civil;
   const time_t seconds = timegm(&normal);

@@ -9,7 +9,7 @@ bool is_pattern(std::string_view pattern) {
 
 bool matches(std::string_view pattern, std::string_view name) {
   std::size_t at = 0;
-  std::size_t star = std::string_view::npos;  // The last '*' met, and how far it reaches.
+  std::size_t star = std::string_view::npos;  // The last '*' found, and how far it extends.
   std::size_t reach = 0;
   std::size_t i = 0;
   while (i < name.size()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Names by pattern, as shells have it.
+/// Matching of names against patterns, as in shells.
 #pragma once
 
 #include <string_view>
@@ -10,8 +10,8 @@ namespace tagfield {
 /// Whether `pattern` has a '*' or '?'.
 bool is_pattern(std::string_view pattern);
 
-/// Whether the whole of `name` is as `pattern` says: '*' stands for any characters or none, '?' for
-/// one, all others for themselves.
+/// Whether all of `name` matches `pattern`: '*' stands for any number of characters, '?' for one,
+/// any other character for itself.
 bool matches(std::string_view pattern, std::string_view name);
 
 }  // namespace tagfield

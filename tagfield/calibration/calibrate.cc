@@ -11,9 +11,9 @@
 #include "tagfield/base/units.h"
 #include "tagfield/calibration/calibration.h"
 #include "tagfield/fit/circular_least_squares.h"
+#include "tagfield/fit/intervals.h"
 #include "tagfield/fit/random_phases.h"
 #include "tagfield/fit/robust_noise.h"
-#include "tagfield/fit/stretches.h"
 #include "tagfield/fit/symmetric.h"
 #include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/problem.h"
@@ -23,13 +23,14 @@ namespace tagfield {
 namespace {
 
 constexpr std::size_t kFewestReads = 30;
-constexpr double kShortest = 1.0;   ///< First stretches of time [s].
-constexpr double kTimeStep = 0.01;  ///< Of the search for the time offset [s].
+constexpr double kShortest = 1.0;   ///< Length of the first time intervals [s].
+constexpr double kTimeStep = 0.01;  ///< Grid step of the time offset [s].
 constexpr std::size_t kSearchReads = 3000;
 constexpr double kSlopeTime = 1e-3;   ///< [s]
 constexpr double kLeastNoise = 0.01;  ///< [rad]
-constexpr double kStraight = 0.02;    ///< An antenna that moved less tells nothing of time [m].
-/// Offsets of tags that differ by more than this, rms, beyond what noise does, are not shared.
+/// If an antenna moved less, the time offset is not observable [m].
+constexpr double kStraight = 0.02;
+/// Offsets whose rms difference between tags exceeds this, noise deducted, are not shared.
 constexpr double kAgree = 0.25;
 
 using Vector4 = Eigen::Vector4d;  ///< d [m], τ [s].
@@ -43,7 +44,7 @@ struct Sample {
   std::size_t tag = 0;
 };
 
-/// All of one antenna, in order of time.
+/// All samples of one antenna, sorted by time.
 struct AntennaData {
   std::string name;
   const Trajectory* X_WA = nullptr;
@@ -56,7 +57,7 @@ using Row = CircularRow<4>;
 
 struct Model {
   const AntennaData& data;
-  const std::vector<ReadStretch>& stretches;
+  const std::vector<ReadInterval>& intervals;
   const CalibrationOptions& options;
   double sign = 1.0;
   double noise_rad = 0.3;
@@ -99,9 +100,9 @@ Normal normal_at(const Model& model, const Vector4& theta) {
   Normal normal;
   std::vector<Row> rows;
   const double weight = 1.0 / (model.noise_rad * model.noise_rad);
-  for (const ReadStretch& stretch : model.stretches) {
+  for (const ReadInterval& interval : model.intervals) {
     rows.clear();
-    for (const std::size_t i : stretch) {
+    for (const std::size_t i : interval) {
       rows.push_back(linearize(model, model.data.samples[i], theta));
     }
     add_angles(rows, true, weight, normal);
@@ -135,7 +136,7 @@ Fit fitted(Model model, const Fit& start) {
   const CircularFit<4> best = fit_angles<4>(start.theta, kHow, normal, allowed);
   fit.theta = best.unknowns;
   fit.cost = best.cost;
-  fit.noise_rad = robust_noise(best.normal.residuals, model.stretches.size() + 4, kLeastNoise);
+  fit.noise_rad = robust_noise(best.normal.residuals, model.intervals.size() + 4, kLeastNoise);
   model.noise_rad = fit.noise_rad;
   fit.covariance = invert_symmetric(normal_at(model, fit.theta).matrix);
   return fit;
@@ -145,12 +146,12 @@ double duration_of(const AntennaData& data) {
   return to_seconds(data.samples.back().stamp - data.samples.front().stamp);
 }
 
-/// Of one channel, and of one tag unless `shared`, over up to `length_s`.
-std::vector<ReadStretch> stretches_of(const AntennaData& data, double length_s, bool shared) {
-  // More than all that was read may be more than a Duration holds.
+/// Intervals of one channel, and of one tag unless `shared`, up to `length_s` long.
+std::vector<ReadInterval> intervals_of(const AntennaData& data, double length_s, bool shared) {
+  // A length beyond that of all reads may overflow a Duration.
   const Duration length =
       length_s < duration_of(data) ? duration_from_seconds(length_s) : Duration::max();
-  return tagfield::stretches_of(
+  return tagfield::intervals_of(
       data.samples.size(),
       [&](std::size_t i) {
         return std::pair(shared ? 0 : data.samples[i].tag, data.samples[i].frequency_hz);
@@ -165,12 +166,12 @@ bool moves(const AntennaData& data) {
   });
 }
 
-/// Both signs and a grid of time offsets over short stretches; the best few.
+/// The best few fits over short intervals, from both signs and a grid of time offsets.
 std::vector<Fit> coarse_fits(const AntennaData& data, const CalibrationOptions& options) {
-  std::vector<ReadStretch> stretches = stretches_of(data, kShortest, false);
+  std::vector<ReadInterval> intervals = intervals_of(data, kShortest, false);
   const std::size_t stride = 1 + data.samples.size() / kSearchReads;
-  std::vector<ReadStretch> some;
-  for (std::size_t i = 0; i < stretches.size(); i += stride) some.push_back(stretches[i]);
+  std::vector<ReadInterval> some;
+  for (std::size_t i = 0; i < intervals.size(); i += stride) some.push_back(intervals[i]);
   const int steps =
       moves(data) ? static_cast<int>(std::round(options.most_time_offset_s / kTimeStep)) : 0;
   std::vector<Fit> fits;
@@ -185,7 +186,7 @@ std::vector<Fit> coarse_fits(const AntennaData& data, const CalibrationOptions& 
     }
     std::stable_sort(of_sign.begin(), of_sign.end(),
                      [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
-    // Neighbours on the grid are the same beginning.
+    // Neighbours on the grid are the same starting point.
     for (const Fit& fit : of_sign) {
       const bool near = std::any_of(fits.begin(), fits.end(), [&](const Fit& other) {
         return other.sign == sign && std::abs(other.theta(3) - fit.theta(3)) < 3.5 * kTimeStep;
@@ -198,26 +199,26 @@ std::vector<Fit> coarse_fits(const AntennaData& data, const CalibrationOptions& 
   return fits;
 }
 
-/// Ever longer stretches, from the best coarse fit.
+/// Fits over increasingly long intervals, from the best coarse fit.
 Fit fine_fit(const AntennaData& data, const CalibrationOptions& options) {
   std::vector<Fit> fits = coarse_fits(data, options);
   Fit best = *std::min_element(fits.begin(), fits.end(),
                                [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
   const double duration = duration_of(data);
   for (double length = 2.0 * kShortest; length < 2.0 * duration + 4.0 * kShortest; length *= 2.0) {
-    const std::vector<ReadStretch> stretches = stretches_of(data, length, false);
-    best = fitted({data, stretches, options, best.sign, best.noise_rad}, best);
+    const std::vector<ReadInterval> intervals = intervals_of(data, length, false);
+    best = fitted({data, intervals, options, best.sign, best.noise_rad}, best);
   }
   return best;
 }
 
-/// Against random phases (random_phases.h), both signs being as likely before.
+/// Log evidence against random phases (random_phases.h), with both signs equally likely a priori.
 double evidence_of(const AntennaData& data, const CalibrationOptions& options,
-                   const std::vector<ReadStretch>& stretches, const Fit& fit) {
-  const Normal normal = normal_at({data, stretches, options, fit.sign, fit.noise_rad}, fit.theta);
+                   const std::vector<ReadInterval>& intervals, const Fit& fit) {
+  const Normal normal = normal_at({data, intervals, options, fit.sign, fit.noise_rad}, fit.theta);
   double evidence = evidence_of_residuals(normal.residuals, fit.noise_rad, kLeastNoise);
-  for (const ReadStretch& stretch : stretches) {
-    evidence += evidence_of_offset(stretch.size(), fit.noise_rad);
+  for (const ReadInterval& interval : intervals) {
+    evidence += evidence_of_offset(interval.size(), fit.noise_rad);
   }
   const Vector4 prior = prior_weights(options);
   evidence += 0.5 * (prior.array().log().sum() - log_determinant(normal.matrix));
@@ -231,27 +232,27 @@ struct TagOffset {
   std::size_t reads = 0;
 };
 
-/// Offset of each stretch, with what the geometry's uncertainty adds.
+/// Offset of each interval; its sigma includes the uncertainty of the geometry.
 std::vector<TagOffset> offsets_of(const AntennaData& data, const CalibrationOptions& options,
-                                  const std::vector<ReadStretch>& stretches, const Fit& fit) {
+                                  const std::vector<ReadInterval>& intervals, const Fit& fit) {
   std::vector<TagOffset> offsets;
-  const Model model{data, stretches, options, fit.sign, fit.noise_rad};
-  for (const ReadStretch& stretch : stretches) {
+  const Model model{data, intervals, options, fit.sign, fit.noise_rad};
+  for (const ReadInterval& interval : intervals) {
     std::vector<Row> rows;
     Vector4 mean = Vector4::Zero();
-    for (const std::size_t i : stretch) {
+    for (const std::size_t i : interval) {
       rows.push_back(linearize(model, data.samples[i], fit.theta));
-      mean += rows.back().slope / static_cast<double>(stretch.size());
+      mean += rows.back().slope / static_cast<double>(interval.size());
     }
-    const double variance = fit.noise_rad * fit.noise_rad / static_cast<double>(stretch.size()) +
+    const double variance = fit.noise_rad * fit.noise_rad / static_cast<double>(interval.size()) +
                             mean.dot(fit.covariance * mean);
-    offsets.push_back({data.samples[stretch.front()].frequency_hz,
-                       wrap_to_two_pi(circular_mean(rows)), std::sqrt(variance), stretch.size()});
+    offsets.push_back({data.samples[interval.front()].frequency_hz,
+                       wrap_to_two_pi(circular_mean(rows)), std::sqrt(variance), interval.size()});
   }
   return offsets;
 }
 
-/// Rms of the tags' offsets about those of all, channel by channel, less what is due to noise.
+/// Rms deviation of the tags' offsets from their channel's mean, noise deducted.
 double scatter_of(const std::vector<TagOffset>& by_tag) {
   std::map<double, std::vector<const TagOffset*>> by_channel;
   for (const TagOffset& offset : by_tag) by_channel[offset.frequency_hz].push_back(&offset);
@@ -271,20 +272,20 @@ double scatter_of(const std::vector<TagOffset>& by_tag) {
   return freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0;
 }
 
-/// None where random phases would do as well.
+/// nullopt if random phases would fit equally well.
 std::optional<AntennaCalibration> calibration_of(const AntennaData& data,
                                                  const CalibrationOptions& options,
                                                  bool half_turns) {
   const double whole = duration_of(data) + 1.0;
   Fit fit = fine_fit(data, options);
-  if (!(evidence_of(data, options, stretches_of(data, whole, false), fit) >= kLeastEvidence)) {
+  if (!(evidence_of(data, options, intervals_of(data, whole, false), fit) >= kLeastEvidence)) {
     return std::nullopt;
   }
   AntennaCalibration result;
   result.tag_scatter_rad =
-      scatter_of(offsets_of(data, options, stretches_of(data, whole, false), fit));
+      scatter_of(offsets_of(data, options, intervals_of(data, whole, false), fit));
   const bool agree = result.tag_scatter_rad < kAgree;
-  const std::vector<ReadStretch> shared = stretches_of(data, whole, true);
+  const std::vector<ReadInterval> shared = intervals_of(data, whole, true);
   if (agree) fit = fitted({data, shared, options, fit.sign, fit.noise_rad}, fit);
   const double scale = half_turns ? 0.5 : 1.0;
   result.phase_sign = fit.sign > 0.0 ? 1 : -1;
@@ -307,7 +308,7 @@ std::optional<AntennaCalibration> calibration_of(const AntennaData& data,
   return result;
 }
 
-/// Samples of tags at known places, by antenna.
+/// Samples of tags at known positions, by antenna.
 std::map<std::string, AntennaData> data_of(const SamplesByTag& samples,
                                            const std::map<std::string, BelievedTrack>& tracks,
                                            const std::map<std::string, Eigen::Vector3d>& tags) {

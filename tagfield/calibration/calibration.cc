@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-/// A name as YAML takes it, whatever is in it.
+/// A name as a quoted YAML string, with any characters.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char character : text) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The door of this room: reads of tags at known places in, what that tells of the antennas out;
-/// and how it is put to use.
+/// Entry point of this module: calibrates antennas from reads of tags at known positions, and
+/// applies the result.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,14 +16,14 @@
 
 namespace tagfield {
 
-/// A figure and how sure it is.
+/// A parameter and its uncertainty.
 struct CalibratedValue {
   double value = 0.0;
   double sigma = 0.0;
-  bool observable = true;  ///< Whether the reads told it; otherwise it is what was known before.
+  bool observable = true;  ///< Whether the reads determine it; otherwise it rests on the prior.
 };
 
-/// Phase offset of one channel: φ = value + 4π r/λ [rad]; where half turns are, but for π.
+/// Phase offset of one channel: φ = value + 4π r/λ [rad]; modulo π if phases have a π ambiguity.
 struct ChannelOffset {
   double frequency_hz = 0.0;
   double value_rad = 0.0;  ///< In [0, 2π).
@@ -32,14 +32,14 @@ struct ChannelOffset {
 };
 
 struct AntennaCalibration {
-  int phase_sign = 1;  ///< −1 where reported phases fall with distance.
+  int phase_sign = 1;  ///< −1 if reported phases fall with distance.
   /// Phase centre in the antenna's believed frame A [m].
   CalibratedValue place_m[3];
-  CalibratedValue time_offset_s;  ///< Stamps of reads less this are those of poses.
+  CalibratedValue time_offset_s;  ///< Latency of the reads' stamps relative to those of poses.
   double noise_rad = 0.0;
   std::size_t reads = 0;
-  std::vector<ChannelOffset> offsets;  ///< By rising frequency.
-  /// Scatter of the offsets from tag to tag [rad]; an offset is given only where they agree.
+  std::vector<ChannelOffset> offsets;  ///< Sorted by frequency.
+  /// Scatter of the offsets from tag to tag [rad]; offsets are given only if the tags agree.
   double tag_scatter_rad = 0.0;
 };
 
@@ -49,22 +49,22 @@ struct Calibration {
   std::map<std::string, AntennaCalibration> antennas;
 };
 
-/// Corrects what a reader and a robot reported: signs of phases and stamps of `reads`, places of
-/// `poses`, and tells `known` the offsets. Antennas without a calibration stay as they are.
+/// Applies a calibration: corrects phase signs and stamps of `reads` and positions of `poses`, and
+/// adds the offsets to `known`. Antennas without a calibration are left unchanged.
 void apply_calibration(const Calibration& calibration, std::vector<TagRead>& reads,
                        std::vector<AntennaPose>& poses, KnownBeforehand& known);
 
-/// As a profile, which simulator/calibration_profile.h reads back. Its figures have nine digits.
+/// Writes a profile that simulator/calibration_profile.h reads. Numbers have nine digits.
 std::string to_yaml(const Calibration& calibration);
 
 struct CalibrationOptions {
-  double place_sigma_m = 0.1;         ///< What is known of each component of the place before.
-  double time_offset_sigma_s = 0.05;  ///< And of the time offset.
-  double most_time_offset_s = 0.5;    ///< Offsets are looked for up to this.
+  double place_sigma_m = 0.1;         ///< Prior of each component of the position.
+  double time_offset_sigma_s = 0.05;  ///< Prior of the time offset.
+  double most_time_offset_s = 0.5;    ///< Largest time offset searched.
   double max_pose_gap_s = 0.5;        ///< Reads between poses further apart are left out.
 };
 
-/// Throws Error naming the option that is out of its range or not finite.
+/// Throws Error naming an option that is out of range or not finite.
 void check(const CalibrationOptions& options);
 
 /// Calibrates each antenna on its own, by robust least squares on wrapped phases. Parameters: the
@@ -72,11 +72,11 @@ void check(const CalibrationOptions& options);
 ///
 ///   s φ = ψ + 4π/λ |X_WA(t − τ) d − p_tag| + noise, s = ±1.
 ///
-/// First with an offset for each tag and channel in short stretches of time, so that neither
-/// offsets nor turns matter, over a grid of τ and both signs; then in ever longer ones; at last
-/// with the offsets of a channel shared by all tags, where they agree. Standard deviations take
-/// residuals for independent of each other. Antennas with too few reads are left out with a
-/// warning. `tags`: places by ID [m, world]; reads of others are left out.
+/// The first fits are over a grid of τ and both signs, with an offset for each tag and channel in
+/// short time intervals, so that neither offsets nor whole cycles matter. The intervals are then
+/// lengthened step by step; finally the offsets of a channel are shared by all tags if they agree.
+/// Standard deviations assume independent residuals. Antennas with too few reads are left out with
+/// a warning. `tags`: positions by ID [m, world]; reads of other tags are ignored.
 Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<AntennaPose>& poses,
                       const std::map<std::string, Eigen::Vector3d>& tags,
                       const CalibrationOptions& options, int threads, Diagnostics& diagnostics);

@@ -13,8 +13,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kClearly = 2.0;     ///< Standard errors of a mean that is not what was before.
-constexpr double kAgree_rad = 0.25;  ///< Offsets of a channel that are one.
+constexpr double kClearly = 2.0;     ///< Standard errors by which a mean must differ from 0.
+constexpr double kAgree_rad = 0.25;  ///< Largest rms scatter of a channel's offsets that agree.
 
 using OfAntenna = std::vector<const AntennaCalibration*>;
 
@@ -30,13 +30,14 @@ double rms_about(const std::vector<double>& values, double middle, double freedo
   return std::sqrt(squares / freedom);
 }
 
-/// Rms by which each value is missed by the mean of the others: n/(n − 1) times its own deviation.
+/// Rms error of predicting each value by the mean of the others: n/(n − 1) times its deviation from
+/// the mean of all.
 double missed_by_others(const std::vector<double>& values) {
   const auto n = static_cast<double>(values.size());
   return n / (n - 1.0) * rms_about(values, mean_of(values), n);
 }
 
-/// A figure that is asked of each experiment. `unit` [m or s] in thousandths.
+/// A parameter taken from each experiment. `unit` is a thousandth of its unit [m or s].
 struct Figure {
   const char* name;
   const char* unit;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Several experiments' calibrations made one that is good for another experiment, as far as what
-/// they tell is the same in all of them.
+/// Combination of several experiments' calibrations into one for another experiment, as far as they
+/// agree.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,14 @@
 
 namespace tagfield {
 
-/// Each figure of an antenna is held out in turn: by the mean of the others it must be met twice
-/// as well as by leaving it as it was, over all experiments, and its mean must be beyond twice its
-/// standard error. What passes gets the mean, with the scatter between experiments in its standard
-/// deviation for one more experiment. What doesn't is left as it was (`observable: false`) with a
-/// warning that says how much it differs. Noise is the median. Offsets are given for channels on
-/// which all experiments agree (rms under 0.25 rad). Antennas of which nothing carries over, or
-/// that not all experiments calibrated, are left out. At least three experiments.
+/// Cross-validates each parameter of an antenna by leaving out one experiment at a time: the mean
+/// of the others must predict it with at most half the rms error of no correction, and its mean
+/// must exceed twice its standard error. If so, the result is the mean, with a standard deviation
+/// that covers one more experiment, given the scatter between experiments. If not, the parameter is
+/// left uncorrected (`observable: false`), with a warning that says how much it differs if each
+/// experiment determines it clearly. The noise is the median. Offsets are given for channels on
+/// which all experiments agree (rms under 0.25 rad). Antennas for which nothing carries over, or
+/// that not all experiments calibrated, are left out. Needs at least three experiments.
 Calibration carried_over(const std::vector<Calibration>& experiments, Diagnostics& diagnostics);
 
 }  // namespace tagfield

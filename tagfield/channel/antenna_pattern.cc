@@ -17,22 +17,22 @@ namespace {
 
 constexpr double kLeastGain = -60.0;
 constexpr double kMostGain = 40.0;
-/// A lobe's exponent above this is a pencil of under 2°.
+/// A lobe narrower than this, 2°, would have too large an exponent.
 constexpr double kLeastBeam_rad = radians(2.0);
 constexpr double kMostBeam_rad = radians(179.0);
-/// Steps in which a table is integrated.
+/// Number of steps for integrating a table.
 constexpr int kIntegrationSteps = 720;
 
-/// 10^(db/10), by the quicker of the two functions that give it.
+/// 10^(db/10), by the faster of the two possible functions.
 double power_from_db(double db) { return std::exp(db * (0.1 * std::numbers::ln10)); }
 
-/// cosⁿ falls to ½ at half of the width.
+/// cosⁿ drops to ½ at half of the width.
 double lobe_exponent(double beam_width_rad) {
   return std::log(0.5) / std::log(std::cos(0.5 * beam_width_rad));
 }
 
-/// Between the two cuts' values by the direction around the boresight: cos² of it counts for the
-/// horizontal one.
+/// Interpolates between the two cuts by the angle around the boresight: the horizontal one has the
+/// weight cos².
 double between_cuts(double horizontal, double vertical, const Eigen::Vector3d& u_A) {
   const double y = u_A.y() * u_A.y();
   const double z = u_A.z() * u_A.z();
@@ -118,15 +118,16 @@ double mean_gain(const AntennaPattern& pattern) {
   return sum / kIntegrationSteps;
 }
 
-/// What of `axis` lies across the way, of length 1; any such direction straight along the axis.
+/// The component of `axis` perpendicular to the direction, normalized; any perpendicular direction
+/// along the axis itself.
 Eigen::Vector3d along_wire(const Eigen::Vector3d& axis, const Eigen::Vector3d& u_A) {
   const Eigen::Vector3d across = axis - axis.dot(u_A) * u_A;
   const double length = across.norm();
   return length > 1e-9 ? Eigen::Vector3d(across / length) : Eigen::Vector3d(u_A.unitOrthogonal());
 }
 
-/// Of two wires across one another, fed a quarter of a turn apart: circular along the boresight,
-/// ever more elliptic off it, linear at its side and of the other hand behind.
+/// The field of two crossed wires fed in phase quadrature: circular along the boresight,
+/// increasingly elliptic off it, linear at the sides and of opposite handedness behind.
 Eigen::Vector3cd of_crossed_wires(double hand, const Eigen::Vector3d& u_A) {
   using Complex = std::complex<double>;
   const Eigen::Vector3cd axis(Complex(0.0), Complex(0.0, hand), Complex(1.0));
@@ -182,8 +183,8 @@ Eigen::Vector3cd field_direction(const AntennaPattern& pattern, const Eigen::Vec
   if (is_dipole || pattern.polarization == PolarizationKind::kLinear) {
     return along_wire(wire(pattern), u_A).cast<std::complex<double>>();
   }
-  // y, z and the boresight x form a right-handed set, as u, v and k do: a right hand is u − jv, and
-  // so v + ju, which meets upright tags without a phase of its own.
+  // y, z and the boresight x form a right-handed set, like u, v and k: right-handed polarization is
+  // u − jv, and so v + ju, which has no extra phase for upright tags.
   return of_crossed_wires(pattern.polarization == PolarizationKind::kRightCircular ? 1.0 : -1.0,
                           u_A);
 }

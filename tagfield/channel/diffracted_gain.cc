@@ -25,7 +25,7 @@ using channel_internal::turned_to_world;
 using Eigen::Vector3cd;
 using Eigen::Vector3d;
 
-/// Fields across a ray: along the edge as far as they can be, and k × that.
+/// Basis perpendicular to a ray: the direction closest to the edge's, and k × that.
 struct RayBasis {
   Vector3d along;
   Vector3d other;
@@ -36,8 +36,8 @@ RayBasis basis_of(const Vector3d& k, const Vector3d& axis) {
   return {along, k.cross(along)};
 }
 
-/// What a face does to a field that comes in at `angle` [rad] from it: components before and after
-/// in the rays' bases.
+/// The effect of a face on a field that arrives at `angle` [rad] from it: maps components in the
+/// incoming ray's basis to components in the outgoing ray's basis.
 Eigen::Matrix2cd on_face(const DiffractingEdge& edge, const WedgeFace& face, double angle,
                          double cos_beta, bool mirrored, const FresnelPair& pair) {
   const double sin_beta = std::sqrt(std::max(0.0, 1.0 - cos_beta * cos_beta));
@@ -57,15 +57,15 @@ Eigen::Matrix2cd on_face(const DiffractingEdge& edge, const WedgeFace& face, dou
   return matrix;
 }
 
-/// A field that comes to an edge, in its ray's basis, and what it would be if nothing before it had
-/// hindered it.
+/// The field that arrives at an edge, in its ray's basis, and what it would be without any
+/// attenuation on the path.
 struct Arriving {
   Eigen::Vector2cd field;
   Eigen::Vector2cd unhindered;
 };
 
-/// What leaves the edge, in its ray's basis, and what of it a tag with the fitting polarization
-/// takes in.
+/// The field that leaves the edge, in its ray's basis, and the amplitude that a tag with matching
+/// polarization receives.
 struct Leaving {
   Eigen::Vector2cd field;
   Complex fitting = 0.0;
@@ -77,7 +77,7 @@ class EdgeWalk {
            const Carrier& carrier, const TracedBeside& beside)
       : path_(path), edge_(edge), world_(world), carrier_(carrier), beside_(beside) {}
 
-  /// The terms' sum [√m].
+  /// The sum of the terms [√m].
   [[nodiscard]] Leaving diffracted(const Arriving& wave) const {
     const WedgeTerms terms = wedge_terms(geometry());
     Leaving sum{Eigen::Vector2cd::Zero()};
@@ -88,7 +88,7 @@ class EdgeWalk {
     return sum;
   }
 
-  /// What the path's crossings on `leg` leave of a field that goes along `k`.
+  /// Applies the path's crossings on `leg` to a field that propagates along `k`.
   void cross(int leg, const Vector3d& k, Vector3cd& field) const {
     for (const Crossing& through : path_.crossings) {
       if (through.leg != leg) continue;
@@ -121,12 +121,13 @@ class EdgeWalk {
     return {edge_.exterior_rad - path_.antenna_rad, edge_.exterior_rad - path_.tag_rad};
   }
 
-  /// What the solid lets through beside its edge, where a way enters by a face.
+  /// Transmission through the solid close to its edge, for a path that enters through a face.
   [[nodiscard]] FresnelPair let_through(double cosine) const {
     if (world_.scene.is_opaque(edge_.solid)) return {0.0, 0.0};
     Crossing at_edge;
     at_edge.cos_incidence = cosine;
-    // Nothing of a solid is in the way beside its edge; of a plate all of it, of a sheet itself.
+    // Close to its edge, a solid has no thickness on the path; a plate has its full thickness, and
+    // a sheet its own.
     constexpr double kHardly = 1e-9;
     at_edge.length_m = edge_.is_sheet            ? 0.0
                        : edge_.thickness_m > 0.0 ? edge_.thickness_m / std::max(cosine, kHardly)
@@ -134,8 +135,9 @@ class EdgeWalk {
     return crossing(material(edge_.solid), eta(edge_.solid), at_edge, carrier_.lambda_m);
   }
 
-  /// What a face mirrors. Metal does so as a perfect conductor down to the last minute of arc,
-  /// where Fresnel's coefficients turn, which the theory has no room for.
+  /// Reflection by a face. Metal reflects as a perfect conductor even within the last arc minute of
+  /// grazing incidence, where the Fresnel coefficients change abruptly, which the theory can't
+  /// represent.
   [[nodiscard]] FresnelPair mirrored(double cosine) const {
     constexpr double kMetal = 1e6;
     if (std::abs(eta(edge_.solid)) > kMetal) return {-1.0, 1.0};
@@ -144,7 +146,7 @@ class EdgeWalk {
 
   void add_shadow(std::size_t i, Complex term, const Arriving& wave, Leaving& sum) const {
     const auto [antenna, tag] = angles_from(i);
-    // As a way on the shadow's boundary, where tag = antenna + π; the same from both ends.
+    // As for a path on the shadow boundary, where tag = antenna + π; the same from both ends.
     const double angle = 0.5 * (antenna + tag - kPi);
     const FresnelPair pair = let_through(sin_beta() * std::abs(std::sin(angle)));
     Eigen::Matrix2cd lost = Eigen::Matrix2cd::Identity();
@@ -156,7 +158,7 @@ class EdgeWalk {
 
   void add_mirror(std::size_t i, Complex term, const Arriving& wave, Leaving& sum) const {
     const auto [antenna, tag] = angles_from(i);
-    // As a mirrored way, where tag = π − antenna; the same from both ends.
+    // As for a reflected path, where tag = π − antenna; the same from both ends.
     const double angle = 0.5 * (kPi - tag + antenna);
     const FresnelPair pair = mirrored(sin_beta() * std::abs(std::sin(angle)));
     const WedgeFace& face = edge_.faces[i];
@@ -174,7 +176,7 @@ class EdgeWalk {
   const TracedBeside& beside_;
 };
 
-/// What the tag takes in [√m] of the field that the antenna sends towards the edge.
+/// The amplitude that the tag receives [√m] of the field that the antenna sends towards the edge.
 Complex taken_in(const DiffractedPath& path, const DiffractingEdge& edge, const EdgeWalk& walk,
                  const RadioEnd& antenna, const RadioEnd& tag, const ChannelEffects& effects) {
   const Vector3cd sent =
@@ -194,7 +196,7 @@ Complex taken_in(const DiffractedPath& path, const DiffractingEdge& edge, const 
         turned_to_world(tag, field_direction(tag.pattern, into(tag, -path.arrival_W)));
     return dot(after, fits);
   }
-  // Crossings take of it what they take of the field's length.
+  // Crossings attenuate it as they attenuate the field's magnitude.
   const double before = after.squaredNorm();
   if (!(before > 0.0)) return 0.0;
   walk.cross(1, path.arrival_W, after);
@@ -212,7 +214,7 @@ Complex diffracted_gain(const DiffractedPath& path, const std::vector<Diffractin
   const Complex taken = taken_in(path, edge, walk, antenna, tag, effects);
   const double both = power_gain(antenna, into(antenna, path.departure_W), effects) *
                       power_gain(tag, into(tag, -path.arrival_W), effects);
-  // A spherical wave's: 1/s' there and √(s'/(s (s + s'))) onwards.
+  // Spherical wave: 1/s' up to the edge and √(s'/(s (s + s'))) from there.
   const double spread = std::sqrt(path.length_m() / (path.before_m * path.after_m));
   return std::sqrt(both) * spreading(carrier, path.length_m()) * spread *
          phasor(carrier, path.length_m()) * taken;

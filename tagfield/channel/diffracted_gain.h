@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One-way gain of a way that bends at an edge. See docs/diffraction.md.
+/// One-way gain of a path diffracted at an edge. See docs/diffraction.md.
 #pragma once
 
 #include <complex>
@@ -11,14 +11,14 @@
 
 namespace tagfield {
 
-/// What of geometrical optics is traced beside the edges: only what that drops at a boundary is
-/// there to be made good for.
+/// Geometrical-optics contributions that are traced besides diffraction: only their discontinuities
+/// at a boundary need compensation.
 struct TracedBeside {
-  bool shadows = true;  ///< Things stand in the way.
-  bool mirrors = true;  ///< Faces that are facets mirror.
+  bool shadows = true;  ///< Obstacles cast shadows.
+  bool mirrors = true;  ///< Faces that are facets reflect.
 };
 
-/// Like path_gain(), of a way over one edge: eq. (1)'s a_i. Reciprocal.
+/// Like path_gain(), for a path over one edge: a_i in eq. (1). Reciprocal.
 std::complex<double> diffracted_gain(const DiffractedPath& path,
                                      const std::vector<DiffractingEdge>& edges,
                                      const RadioEnd& antenna, const RadioEnd& tag,

@@ -30,7 +30,7 @@ inline double along(const Axis& axis, const Vectors& way, std::size_t i) {
   return x_of(axis, i) * way.x[i] + y_of(axis, i) * way.y[i] + z_of(axis, i) * way.z[i];
 }
 
-/// The antenna's axes in W, the same for all links. Passed by value: loops then hold it in
+/// The antenna's axes in W, the same for all links. Passed by value, so that loops keep it in
 /// registers.
 struct AntennaFrame {
   Vector3d boresight;
@@ -38,7 +38,7 @@ struct AntennaFrame {
   Vector3d up;
 };
 
-/// Rotations as unit quaternions, and of their columns those that patterns ask for.
+/// Rotations as unit quaternions, and those of their columns that patterns need.
 struct TagFrames {
   Lane w;
   Vectors v;
@@ -48,12 +48,13 @@ struct TagFrames {
   Vectors wire;
 };
 
-/// What one end of each link makes of the way.
+/// The factors of one end for each link.
 struct EndLanes {
-  Vectors way_own;  ///< From this end, in its frame, where needs_frame().
-  Lane along_wire;  ///< Cosine between the way from this end and the wire, where has_wire().
-  Lane power;       ///< Gain, times
-  Lane divisor;     ///< this: a division for both ends does.
+  Vectors way_own;  ///< Direction from this end, in its frame, if needs_frame().
+  Lane along_wire;  ///< Cosine of the angle between the direction from this end and the wire, if
+                    ///< has_wire().
+  Lane power;       ///< Gain multiplied by
+  Lane divisor;     ///< this, so that one division serves both ends.
 };
 
 struct Work {
@@ -80,7 +81,7 @@ bool has_wire(const AntennaPattern& pattern) {
          pattern.polarization == PolarizationKind::kLinear;
 }
 
-/// Has a gain over direction that is none about its wire.
+/// Whether it has a directional gain other than that of its wire.
 bool is_directed(const AntennaPattern& pattern, const ChannelEffects& effects) {
   return effects.patterns && pattern.shape != PatternShape::kIsotropic &&
          pattern.shape != PatternShape::kDipole;
@@ -90,7 +91,7 @@ bool needs_frame(const AntennaPattern& pattern, const ChannelEffects& effects) {
   return is_directed(pattern, effects) || !has_wire(pattern);
 }
 
-/// A rotation's columns; Eigen's function doesn't keep to one order of sums.
+/// The columns of a rotation matrix; Eigen's function doesn't guarantee a fixed order of summation.
 AntennaFrame frame_of(const Eigen::Quaterniond& q) {
   const double w = q.w();
   const double x = q.x();
@@ -162,13 +163,13 @@ void set_ways(const Vector3d& p_WA, std::size_t count, Work& work) {
   }
 }
 
-/// `sign` is -1 at the end that the ways lead to.
+/// `sign` is -1 at the end where the paths arrive.
 template <class Axis>
-void turn_ways(Axis axis, double sign, const Vectors& way, std::size_t count, Lane& own) {
+void turn_paths(Axis axis, double sign, const Vectors& way, std::size_t count, Lane& own) {
   for (std::size_t i = 0; i < count; ++i) own[i] = sign * along(axis, way, i);
 }
 
-/// What the patterns of patches need, of all directions.
+/// The direction-independent values for the patterns of patches.
 struct PatchLobe {
   double peak;
   double back;
@@ -226,19 +227,19 @@ void add_gains(const AntennaPattern& pattern, const ChannelEffects& effects, Ins
   }
 }
 
-/// What of a wire lies across the way, and its squared length.
+/// The component of a wire perpendicular to the path, and its squared length.
 struct WireField {
   double x, y, z;
   double across;
 };
-/// Of crossed wires along up + j·hand·left.
+/// Same for crossed wires along up + j·hand·left.
 struct CircularField {
   double re_x, re_y, re_z;
   double im_x, im_y, im_z;
   double across;
 };
 
-/// `sign` is -1 at the end that the ways lead to.
+/// `sign` is -1 at the end where the paths arrive.
 template <class Axis>
 struct WireEnd {
   Axis wire;
@@ -266,7 +267,8 @@ struct CircularEnd {
   [[nodiscard]] CircularField field(const Vectors& way, std::size_t i) const {
     const double of_left = sign * along_left[i];
     const double of_up = sign * along_up[i];
-    // Each wire's part across the way has the square 1 − u², of both 2 − u_y² − u_z² ≥ 1.
+    // Each wire's perpendicular component has the squared length 1 − u², the sum of both is 2 −
+    // u_y² − u_z² ≥ 1.
     const double across = 2.0 - along_left[i] * along_left[i] - along_up[i] * along_up[i];
     return {x_of(up, i) - of_up * way.x[i],
             y_of(up, i) - of_up * way.y[i],
@@ -278,8 +280,8 @@ struct CircularEnd {
   }
 };
 
-/// What one end takes in of the other's field, as a factor, times √square; and the least of what
-/// lies across.
+/// The polarization factor, by which one end receives the other's field, times √square; and the
+/// smaller squared length of both perpendicular components.
 struct Taken {
   double re, im;
   double square;
@@ -304,18 +306,18 @@ inline Taken taken(const CircularField& a, const CircularField& t) {
   return {re, im, a.across * t.across, 1.0};
 }
 
-/// √(G G')·λ/(4πd)·e^{−jkd} times `taken_at(i)`; its power as to_db() has it, to the last bits; and
-/// the slope. True where some link is beyond the loop's functions: too far, in one place, or along
-/// a wire. Those have 1 in `unsure`.
+/// √(G G')·λ/(4πd)·e^{−jkd} times `taken_at(i)`; its power equal to to_db() up to the last bits;
+/// and the slope. Returns true if some links are outside the domain of the loop's functions: too
+/// long, with coincident ends, or along a wire. Those have 1 in `unsure`.
 template <class TakenAt>
 bool add_links(const Carrier& carrier, const TakenAt& taken_at, std::size_t count, const Work& work,
                StraightLinks& links, std::array<std::uint64_t, kStraightLinks>& unsure) {
   constexpr double kLeast = std::numeric_limits<double>::min();
-  constexpr double kMostTurn_rad = 1e5;  // of lane_sine_cosine()
+  constexpr double kMostTurn_rad = 1e5;  // limit of lane_sine_cosine()
   const double at_a_metre = carrier.lambda_m / (4.0 * kPi);
   const double wave_number = carrier.wave_number;
   std::uint64_t any = 0;
-  // What is written is read nowhere here, which compilers don't see of so many arrays.
+  // Nothing written here is read here, which compilers can't deduce for so many arrays.
 #pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i) {
     const double length = work.length[i];
@@ -363,30 +365,30 @@ void fill(std::span<const PoseRef> tags, Work& work) {
   }
 }
 
-/// The ways as the antenna sees them: what its pattern asks for,
+/// Path directions relative to the antenna, as its pattern needs them,
 void look_from_antenna(const AntennaPattern& pattern, const ChannelEffects& effects,
                        const AntennaFrame& frame, const Vector3d& wire, const Vectors& way,
                        std::size_t count, EndLanes& end) {
-  if (has_wire(pattern)) turn_ways<Vector3d>(wire, 1.0, way, count, end.along_wire);
+  if (has_wire(pattern)) turn_paths<Vector3d>(wire, 1.0, way, count, end.along_wire);
   if (!needs_frame(pattern, effects)) return;
-  turn_ways<Vector3d>(frame.boresight, 1.0, way, count, end.way_own.x);
-  turn_ways<Vector3d>(frame.left, 1.0, way, count, end.way_own.y);
-  turn_ways<Vector3d>(frame.up, 1.0, way, count, end.way_own.z);
+  turn_paths<Vector3d>(frame.boresight, 1.0, way, count, end.way_own.x);
+  turn_paths<Vector3d>(frame.left, 1.0, way, count, end.way_own.y);
+  turn_paths<Vector3d>(frame.up, 1.0, way, count, end.way_own.z);
 }
 
-/// and as tags do.
+/// and relative to the tags.
 void look_from_tags(const AntennaPattern& pattern, const ChannelEffects& effects,
                     const Vectors& way, std::size_t count, TagFrames& frames, EndLanes& end) {
   if (has_wire(pattern)) {
     set_wires(wire_of(pattern), count, frames);
-    turn_ways<const Vectors&>(frames.wire, -1.0, way, count, end.along_wire);
+    turn_paths<const Vectors&>(frames.wire, -1.0, way, count, end.along_wire);
   }
   if (!needs_frame(pattern, effects)) return;
   set_boresights(count, frames);
   set_sides(count, frames);
-  turn_ways<const Vectors&>(frames.boresight, -1.0, way, count, end.way_own.x);
-  turn_ways<const Vectors&>(frames.left, -1.0, way, count, end.way_own.y);
-  turn_ways<const Vectors&>(frames.up, -1.0, way, count, end.way_own.z);
+  turn_paths<const Vectors&>(frames.boresight, -1.0, way, count, end.way_own.x);
+  turn_paths<const Vectors&>(frames.left, -1.0, way, count, end.way_own.y);
+  turn_paths<const Vectors&>(frames.up, -1.0, way, count, end.way_own.z);
 }
 
 void set_alone(const RadioEnd& antenna, const RadioEnd& tag, const Carrier& carrier,
@@ -405,7 +407,7 @@ void set_alone(const RadioEnd& antenna, const RadioEnd& tag, const Carrier& carr
 
 using Unsure = std::array<std::uint64_t, kStraightLinks>;
 
-/// Links of one antenna with tags of one pattern.
+/// Links of one antenna with tags that have the same pattern.
 struct Batch {
   const AntennaPattern& antenna;
   const AntennaPattern& tag;
@@ -444,7 +446,7 @@ bool add_from(const Batch& batch, From from, const Work& work, StraightLinks& li
   return add_in_lanes(batch, at, work, links, unsure);
 }
 
-/// `wire`: the antenna's in W, if it has one.
+/// `wire`: the antenna's wire in W, if it has one.
 bool add_all_links(const Batch& batch, const AntennaFrame& frame, const Vector3d& wire,
                    bool polarization, const Work& work, StraightLinks& links, Unsure& unsure) {
   if (!polarization) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One-way gains of the straight ways from an antenna to many tags.
+/// One-way gains of the direct paths from an antenna to many tags.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 
 namespace tagfield {
 
-/// So many links at a time that all of theirs stays in the nearest cache.
+/// Batch size at which all data of a batch stays in the L1 cache.
 inline constexpr std::size_t kStraightLinks = 64;
 
-/// Of a link each.
+/// One element per link.
 struct StraightLinks {
   using Lane = std::array<double, kStraightLinks>;
   struct Vectors {
@@ -23,22 +23,23 @@ struct StraightLinks {
     Lane y;
     Lane z;
   };
-  Lane re;  ///< The amplitude gain,
+  Lane re;  ///< The complex amplitude gain,
   Lane im;
-  Lane power_db;  ///< and its square, as to_db() has it.
-  /// −∂ arg h/∂p_WA [rad/m]: the wave number, towards the antenna. 0 where there is no gain.
+  Lane power_db;  ///< and its squared magnitude as given by to_db().
+  /// −∂ arg h/∂p_WA [rad/m]: a vector towards the antenna whose length is the wave number. 0 where
+  /// the gain is 0.
   Vectors slope_W;
 };
 
-/// Where a tag is and how it lies, wherever that is kept.
+/// A tag's orientation and position, stored elsewhere.
 struct PoseRef {
   const Eigen::Quaterniond* R_WT;
   const Eigen::Vector3d* p_WT;
 };
 
-/// free_space_gain() of `antenna` and each of the tags, all of one pattern, at most kStraightLinks
-/// of them, within 1e-12 of its length; the same bits whatever else is in the batch and whatever
-/// the instruction set.
+/// free_space_gain() between `antenna` and each of the tags, all with the same pattern, at most
+/// kStraightLinks of them. Relative accuracy 1e-12; a link's result is bit-identical whatever else
+/// is in the batch and whatever the instruction set.
 void free_space_gains(const RadioEnd& antenna, const AntennaPattern& tag,
                       std::span<const PoseRef> tags, const Carrier& carrier,
                       const ChannelEffects& effects, StraightLinks& links,

@@ -15,14 +15,14 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Vector3d;
 
-/// Its length's and width's directions.
+/// Directions of its length and width.
 std::array<Vector3d, 2> axes(const MovingBody& body) {
   const double c = std::cos(body.yaw_rad);
   const double s = std::sin(body.yaw_rad);
   return {Vector3d(c, s, 0.0), Vector3d(-s, c, 0.0)};
 }
 
-/// Half of how wide the body looks along `w`, a unit vector.
+/// Half of the body's extent along the unit vector `w`.
 double half_width(const MovingBody& body, const Vector3d& w) {
   const double upright = body.half_m.z() * std::abs(w.z());
   if (body.is_round) return upright + body.half_m.x() * std::hypot(w.x(), w.y());
@@ -40,15 +40,16 @@ bool is_in(const MovingBody& body, const Vector3d& p_W) {
          std::abs(from.dot(width)) <= body.half_m.y();
 }
 
-/// What of the way the body takes along one direction of the screen: (1 + j)/2 ∫ e^{−jπt²/2} dt.
+/// The share of the wave that the body blocks along one direction of the screen: (1 + j)/2 ∫
+/// e^{−jπt²/2} dt.
 Complex share(double from, double to, double scale) {
-  // In τ = t √(π/2).
+  // Substituting τ = t √(π/2).
   const double root = std::sqrt(0.5 * kPi);
   return Complex(0.5, 0.5) / root *
          (fresnel_tail(root * scale * from) - fresnel_tail(root * scale * to));
 }
 
-/// What gets through it: as through a slab as thick as it is along the way, in its middle.
+/// Transmission through the body: as through a slab as thick as the body's extent along the path.
 Complex let_through(const MovingBody& body, const Vector3d& k, const Carrier& carrier) {
   if (body.material.is_opaque) return 0.0;
   Crossing through;

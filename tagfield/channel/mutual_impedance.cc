@@ -28,9 +28,9 @@ Complex by_series(Complex z) {
   return sum;
 }
 
-/// e^(−z)/(z + 1 − 1/(z + 3 − 4/(z + 5 − …))) from its tail (ibid., 5.1.22, even part).
+/// e^(−z)/(z + 1 − 1/(z + 3 − 4/(z + 5 − …))) evaluated from its tail (ibid., 5.1.22, even part).
 Complex by_fraction(Complex z) {
-  // Its error falls with e^(−√(8 n |z|)).
+  // The error decreases as e^(−√(8 n |z|)).
   const int steps = 20 + static_cast<int>(240.0 / std::abs(z));
   Complex tail = 0.0;
   for (int n = steps; n > 0; --n) {
@@ -40,14 +40,14 @@ Complex by_fraction(Complex z) {
   return std::exp(-z) / (z + 1.0 - tail);
 }
 
-/// √(d² + t²) − t without the loss of digits far along the wire.
+/// √(d² + t²) − t without cancellation far along the wire.
 double beyond(double across, double t) {
   const double length = std::hypot(across, t);
   return t > 0.0 ? across * across / (length + t) : length - t;
 }
 
-/// ∫ cos(k(t − c)) e^(−jkr)/r dt over half a wavelength about t = c, r = √(d² + t²): the field of
-/// one end of a dipole along the other's current.
+/// ∫ cos(k(t − c)) e^(−jkr)/r dt over half a wavelength around t = c, r = √(d² + t²): the field of
+/// one end of a dipole integrated over the other's current.
 Complex along_wire(double k, double across, double c) {
   const double quarter = 0.5 * kPi / k;
   const double from = c - quarter;
@@ -89,7 +89,7 @@ Eigen::RowVectorXcd coupled_shares(const Eigen::MatrixXcd& mutual) {
   Eigen::MatrixXcd loaded = mutual;
   const double both = 2.0 * kDipoleImpedance_ohm.real();
   for (Eigen::Index i = 0; i < loaded.rows(); ++i) loaded(i, i) = both;
-  // The first row of the inverse of a symmetric matrix is its first column.
+  // For a symmetric matrix, the first row of the inverse is its first column.
   const Eigen::VectorXcd first =
       loaded.partialPivLu().solve(both * Eigen::VectorXcd::Unit(loaded.rows(), 0));
   return first.transpose();

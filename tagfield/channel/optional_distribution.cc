@@ -45,7 +45,7 @@ const Entry& entry_named(const std::string& name) {
       fmt::format("unknown distribution '{}'{}", name, suggestion(name, distribution_names())));
 }
 
-/// Which of the parameters must be greater than 0.
+/// Which parameters must be greater than 0.
 std::array<bool, 2> must_be_positive(DistributionKind kind) {
   switch (kind) {
     case DistributionKind::kExponential:
@@ -77,7 +77,7 @@ void check_parameters(const Entry& entry, const std::vector<double>& parameters)
     require(!must_be_positive(entry.kind)[i] || parameters[i] > 0.0, name, "greater than 0",
             parameters[i]);
   }
-  // The width of [a, b) must be finite too.
+  // The width of [a, b) must be finite, too.
   if (entry.kind == DistributionKind::kUniform &&
       !(parameters[0] < parameters[1] && std::isfinite(parameters[1] - parameters[0]))) {
     throw Error(fmt::format("{}: a must be less than b, got {} and {}", entry.name, parameters[0],

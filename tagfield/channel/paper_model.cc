@@ -24,8 +24,8 @@ void check(const PaperModel& model) {
 }
 
 double paper_phase(const PaperModel& model, double distance_m, double noise_rad) {
-  // The phase turns once each half wavelength; reduced before it is scaled, a long distance neither
-  // overflows nor loses its last digits.
+  // The phase has a period of half a wavelength; since the distance is reduced before scaling, a
+  // long distance neither overflows nor loses its last digits.
   const double half_wavelength = 0.5 * wavelength(model.frequency_hz);
   const double turn = std::fmod(distance_m, half_wavelength) / half_wavelength;
   return wrap_to_two_pi(wrap_to_two_pi(model.phase_offset_rad) + kTwoPi * turn +
@@ -35,7 +35,7 @@ double paper_phase(const PaperModel& model, double distance_m, double noise_rad)
 double paper_rssi_dbm(const PaperModel& model, double distance_m, double noise) {
   const double amplitude =
       model.communication_gain * (wavelength(model.frequency_hz) / (4.0 * kPi * distance_m));
-  // Each bounded before they are added: two infinities could cancel to a NaN.
+  // Clamped before the addition: two infinities could cancel to NaN.
   constexpr double kLeast = std::numeric_limits<double>::min();
   constexpr double kMost = std::numeric_limits<double>::max();
   const double sum = std::min(amplitude, kMost) + std::clamp(noise, -kMost, kMost);

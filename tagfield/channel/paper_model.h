@@ -12,12 +12,12 @@
 
 namespace tagfield {
 
-/// What a channel model needs to know of where the two ends are.
+/// The geometry that a channel model needs.
 struct LinkGeometry {
   double distance_m = 0.0;  ///< D of the paper's equations, greater than 0.
 };
 
-/// Link between an antenna at `p_WA` and a tag at `p_WT` [m]. Ends that coincide count as 1 µm
+/// The link between an antenna at `p_WA` and a tag at `p_WT` [m]. Coincident ends count as 1 µm
 /// apart, so that no model divides by zero.
 inline LinkGeometry link_between(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT) {
   constexpr double kLeastDistance = 1e-6;
@@ -41,11 +41,11 @@ enum class DistributionKind {
 /// A distribution with its parameters [rad, or none], as C++'s `<random>` defines them.
 struct OptionalDistribution {
   DistributionKind kind = DistributionKind::kNone;
-  std::array<double, 2> parameters{};  ///< The second is unused where there is only one.
+  std::array<double, 2> parameters{};  ///< The second is unused if there is only one.
 };
 
-/// All names: "none", "uniform_real_distribution", "exponential_distribution", and so on: those of
-/// C++'s standard library, as in the published plugin.
+/// All names: "none", "uniform_real_distribution", "exponential_distribution", and so on, as in
+/// C++'s standard library and in the published plugin.
 const std::vector<std::string>& distribution_names();
 
 /// The distribution called `name`. Throws Error on an unknown name (with the nearest known one), a
@@ -53,7 +53,7 @@ const std::vector<std::string>& distribution_names();
 OptionalDistribution make_distribution(const std::string& name,
                                        const std::vector<double>& parameters);
 
-/// One draw [rad]; 0 for none. Always finite: a draw beyond the largest double is that double.
+/// One draw [rad]; 0 for none. Always finite: values above the largest double are clamped to it.
 double draw(const OptionalDistribution& distribution, RandomStream& stream);
 
 /// The parameters of Table 1 that shape the signal.
@@ -66,24 +66,24 @@ struct PaperModel {
   OptionalDistribution optional;    ///< n_optional.
 };
 
-/// What the reader's receiver sees of one reply.
+/// One reply as the reader's receiver measures it.
 struct Signal {
   double phase_rad = 0.0;  ///< In [0, 2π).
-  double rssi_dbm = 0.0;   ///< A whole number.
+  double rssi_dbm = 0.0;   ///< An integer.
 };
 
-/// Throws Error naming the parameter that is out of its range or not finite.
+/// Throws Error naming the parameter that is out of range or not finite.
 void check(const PaperModel& model);
 
 /// φ0 + 4πD/λ + `noise_rad`, in [0, 2π): eq. (4). Finite for every distance greater than 0.
 double paper_phase(const PaperModel& model, double distance_m, double noise_rad);
 
-/// round(40 log10 |G λ/(4πD) + noise|): eq. (5). The sum's sign is dropped, because noise makes it
-/// negative where the signal is weak and its logarithm undefined as printed. Finite for every
-/// distance greater than 0.
+/// round(40 log10 |G λ/(4πD) + noise|): eq. (5). The absolute value is taken because noise can make
+/// the sum negative where the signal is weak, and the logarithm as printed undefined. Finite for
+/// every distance greater than 0.
 double paper_rssi_dbm(const PaperModel& model, double distance_m, double noise);
 
-/// One reply: n_φ and n_RSSI come from `noise`, n_optional from `optional_noise`.
+/// One reply: n_φ and n_RSSI are drawn from `noise`, n_optional from `optional_noise`.
 Signal paper_signal(const PaperModel& model, const LinkGeometry& link, RandomStream& noise,
                     RandomStream& optional_noise);
 

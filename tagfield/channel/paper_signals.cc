@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeastNormal = std::numeric_limits<double>::min();
 constexpr double kMostDouble = std::numeric_limits<double>::max();
 
-/// So many links at a time that all of theirs stays in the nearest cache.
+/// Batch size at which all data of a batch stays in the L1 cache.
 constexpr std::size_t kBlock = 256;
 /// Noise of one block.
 struct PaperNoise {
@@ -38,7 +38,7 @@ void make_noise(const PaperModel& model, const PaperLinks& links, PaperNoise& no
   }
 }
 
-/// paper_phase(), where lane_remainder() and lane_wrap_to_two_pi() hold.
+/// paper_phase(), for links in the domain of lane_remainder() and lane_wrap_to_two_pi().
 void add_phases(const PaperModel& model, const PaperLinks& links, const PaperNoise& noise,
                 std::span<double> phase_rad) {
   const double half_wavelength = 0.5 * wavelength(model.frequency_hz);
@@ -64,7 +64,7 @@ void add_rssis(const PaperModel& model, const PaperLinks& links, const PaperNois
   }
 }
 
-/// Whether lane_remainder() and lane_wrap_to_two_pi() hold for a link.
+/// Whether a link is in the domain of lane_remainder() and lane_wrap_to_two_pi().
 bool is_usual(double distance_m, double half_wavelength, double noise_rad) {
   return distance_m >= kLeastNormal && half_wavelength >= 0x1p-900 &&
          distance_m < 0x1p20 * half_wavelength && std::abs(noise_rad) < kTwoPi;
@@ -90,7 +90,7 @@ void paper_signals(const PaperModel& model, const PaperLinks& links, std::span<d
     const PaperLinks part = part_of(links, begin, count);
     const std::span<double> phases = phase_rad.subspan(begin, count);
     in_lanes(set, [&] { make_noise(model, part, noise); });
-    // Wrapped apart, so that a huge optional draw does not swallow the other noise.
+    // Wrapped separately, so that a huge optional draw does not swamp the other noise.
     for (std::size_t i = 0; i < part.optional_rad.size(); ++i) {
       noise.phase_rad[i] += wrap_to_two_pi(part.optional_rad[i]);
     }

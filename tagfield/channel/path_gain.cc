@@ -24,7 +24,7 @@ using channel_internal::turned_to_world;
 using Eigen::Vector3cd;
 using Eigen::Vector3d;
 
-/// A field on its way: what it is, and what it would be if every surface let it all pass.
+/// A wave on a path: its field, and what the field would be if no surface attenuated it.
 struct Travelling {
   Vector3cd field;
   Vector3cd unhindered;
@@ -32,7 +32,7 @@ struct Travelling {
 
 constexpr FresnelPair kAll{1.0, 1.0};
 
-/// Follows a path surface by surface; `look` is told the field after each.
+/// Follows a path surface by surface; calls `at_crossing` or `at_bounce` with the wave after each.
 class PathWalk {
  public:
   PathWalk(const RadioPath& path, const RadioWorld& world, const Carrier& carrier)
@@ -87,10 +87,10 @@ Travelling leaving(const RadioEnd& antenna, const Vector3d& departure_W) {
   return {e, e};
 }
 
-/// What the tag takes in of the wave.
+/// The amplitude that the tag receives of the wave.
 Complex coupling(const Travelling& wave, const RadioEnd& tag, const Vector3d& from_tag_W,
                  const ChannelEffects& effects) {
-  // conj(unhindered)·field: all of it where nothing was in the way.
+  // conj(unhindered)·field: the whole field if nothing attenuated it.
   if (!effects.polarization) return wave.unhindered.dot(wave.field);
   return dot(wave.field, turned_to_world(tag, field_direction(tag.pattern, into(tag, from_tag_W))));
 }

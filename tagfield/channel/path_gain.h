@@ -14,11 +14,11 @@
 
 namespace tagfield {
 
-/// What is taken into account. Each can be left out by itself, so that an error can be traced to
+/// The simulated effects. Each can be switched off independently, so that an error can be traced to
 /// its cause.
 struct ChannelEffects {
-  bool patterns = true;      ///< Gain over direction; else the greatest gain everywhere.
-  bool polarization = true;  ///< Of both ends; else they are taken to fit.
+  bool patterns = true;      ///< Directional gain; else the peak gain in all directions.
+  bool polarization = true;  ///< Of both ends; else assumed to match.
 };
 
 /// An antenna at one end of a link.
@@ -27,39 +27,38 @@ struct RadioEnd {
   const RigidTransform& X_WA;
 };
 
-/// The world at one carrier.
+/// The world at one carrier frequency.
 struct Carrier {
   double lambda_m = 0.0;
   double wave_number = 0.0;                        ///< 2π/λ [rad/m].
-  std::vector<std::complex<double>> permittivity;  ///< Of the world's materials.
+  std::vector<std::complex<double>> permittivity;  ///< Of each of the world's materials.
 };
 
 Carrier carrier_in(const RadioWorld& world, double frequency_hz);
 
-/// Complex amplitude gain h_i of one path, antennas included: received over transmitted power is
-/// |Σ h_i|², and its phase is the received field's, −2πd/λ for a free way. Reciprocal.
+/// Complex amplitude gain h_i of one path, including antennas: received over transmitted power is
+/// |Σ h_i|², and the phase is that of the received field, −2πd/λ in free space. Reciprocal.
 std::complex<double> path_gain(const RadioPath& path, const RadioEnd& antenna, const RadioEnd& tag,
                                const RadioWorld& world, const Carrier& carrier,
                                const ChannelEffects& effects);
 
-/// Likewise of the straight way through free space, without a RadioPath. 0 where both ends are in
-/// one place.
+/// Same for the direct path in free space, without a RadioPath. 0 if both ends coincide.
 std::complex<double> free_space_gain(const RadioEnd& antenna, const RadioEnd& tag,
                                      const Carrier& carrier, const ChannelEffects& effects);
 
-/// Σ of path_gain() over the paths that are not blocked.
+/// Σ of path_gain() over the unblocked paths.
 std::complex<double> one_way_gain(const std::vector<RadioPath>& paths, const RadioEnd& antenna,
                                   const RadioEnd& tag, const RadioWorld& world,
                                   const Carrier& carrier, const ChannelEffects& effects);
 
-/// A path's budget: what its gain is made of [dB]. Their sum is the gain's.
+/// Link budget of a path: the factors of its gain [dB], whose sum is the gain.
 struct PathBudget {
   double spreading_db = 0.0;        ///< (λ/4πd)².
-  double antenna_db = 0.0;          ///< Antenna's gain towards where the path leaves.
-  double tag_db = 0.0;              ///< Tag's gain towards where it comes from.
-  std::vector<double> bounce_db;    ///< Of each bounce, as what it does to the field's length.
+  double antenna_db = 0.0;          ///< The antenna's gain in the path's direction of departure.
+  double tag_db = 0.0;              ///< The tag's gain in the path's direction of arrival.
+  std::vector<double> bounce_db;    ///< Of each reflection: its effect on the field's magnitude.
   std::vector<double> crossing_db;  ///< Of each crossing.
-  double polarization_db = 0.0;     ///< What the tag does not take in of the field that arrives.
+  double polarization_db = 0.0;     ///< Polarization loss of the arriving field at the tag.
 };
 
 PathBudget path_budget(const RadioPath& path, const RadioEnd& antenna, const RadioEnd& tag,

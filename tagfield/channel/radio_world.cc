@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// Whether `text` fits `pattern`, in which * stands for any characters.
+/// Whether `text` matches `pattern`, in which * stands for any characters.
 bool fits(std::string_view pattern, std::string_view text) {
   std::size_t p = 0;
   std::size_t t = 0;
@@ -37,7 +37,7 @@ bool fits(std::string_view pattern, std::string_view text) {
   return p == pattern.size();
 }
 
-/// A scoped name, and those of all that it is part of: "a::b::c", "a::b", "a".
+/// A scoped name and its enclosing scopes: "a::b::c", "a::b", "a".
 std::vector<std::string> scopes_of(const std::string& name) {
   std::vector<std::string> scopes = {name};
   for (std::size_t end = name.rfind("::"); end != std::string::npos && end > 0;
@@ -55,11 +55,11 @@ bool applies(const MaterialRule& rule, const Collision& collision) {
 }
 
 struct Hint {
-  const char* word;  ///< Of a name, in lower case; two that stand side by side count as one, too.
+  const char* word;  ///< Of a name, in lower case; two adjacent words also count as one.
   const char* material;
 };
 
-/// What names of things in halls say of what they are made of. The first that is found counts.
+/// Hints on materials from common names of objects in halls. The first match counts.
 constexpr std::array<Hint, 40> kHints = {{
     {"cardboard", "cardboard"},
     {"carton", "cardboard"},
@@ -133,7 +133,7 @@ bool has_word(const std::vector<std::string>& words, std::string_view word) {
   return false;
 }
 
-/// From the names' innermost part outwards, since a rack may hold boxes.
+/// From the innermost part of the name outwards, since a rack may hold boxes.
 std::string guess(const Collision& collision, const std::string& otherwise) {
   for (const std::string& scope : scopes_of(collision.name)) {
     const std::size_t begin = scope.rfind("::");
@@ -148,7 +148,7 @@ std::string guess(const Collision& collision, const std::string& otherwise) {
 
 std::string model_of(const std::string& name) { return name.substr(0, name.find("::")); }
 
-/// What was guessed, by material: the models.
+/// The guesses: models by material.
 using Guesses = std::map<std::string, std::set<std::string>>;
 
 void warn_of_guesses(const Guesses& guesses, Diagnostics& diagnostics) {
@@ -200,7 +200,7 @@ std::vector<Material> materials_for(const Scene& scene, const RadioWorldOptions&
   return of_solid;
 }
 
-/// Adds it where it is new.
+/// Adds the material if it is new.
 std::uint32_t index_of(const Material& material, std::vector<Material>& materials) {
   for (std::size_t i = 0; i < materials.size(); ++i) {
     if (materials[i].name == material.name) return static_cast<std::uint32_t>(i);

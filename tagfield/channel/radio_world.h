@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A world as waves see it: its surfaces, and what each is made of.
+/// A world for wave propagation: its surfaces and their materials.
 #pragma once
 
 #include <complex>
@@ -19,11 +19,11 @@
 
 namespace tagfield {
 
-/// The edges of a world, which are looked for when they are first asked for: most runs never do.
+/// The edges of a world, found on first use, because most runs don't need them.
 class EdgesOnDemand {
  public:
   explicit EdgesOnDemand(Scene scene) : scene_(std::move(scene)) {}
-  /// `waves` must be what was made of the scene. May be called by several threads at once.
+  /// `waves` must be the one created from the scene. Thread-safe.
   const std::vector<DiffractingEdge>& of(const RadioScene& waves) const;
 
  private:
@@ -32,10 +32,10 @@ class EdgesOnDemand {
   mutable std::vector<DiffractingEdge> edges_;
 };
 
-/// Surfaces and materials. May be used by several threads at once.
+/// Surfaces and materials. Thread-safe for concurrent use.
 struct RadioWorld {
   RadioScene scene;
-  std::vector<Material> materials;         ///< Those in use.
+  std::vector<Material> materials;         ///< The materials in use.
   std::vector<std::uint32_t> material_of;  ///< Index into `materials` by collision.
   std::vector<std::string> solids;         ///< Scoped names of the collisions.
   std::shared_ptr<const EdgesOnDemand> edges_on_demand;
@@ -45,10 +45,10 @@ struct RadioWorld {
   }
 };
 
-/// Makes a world ready. Collisions without a rule are guessed from their names ("metal_shelf",
-/// "wooden_crate", "glass_door") or become `otherwise`, with one warning that says what was
-/// guessed. A rule that fits nothing is warned of. Throws Error as RadioScene does, or where
-/// `materials` lacks one that is guessed.
+/// Prepares a world. Materials of collisions without a rule are guessed from their names
+/// ("metal_shelf", "wooden_crate", "glass_door") or become `otherwise`, with one warning that lists
+/// the guesses. Warns of rules that match nothing. Throws Error as RadioScene does, or if
+/// `materials` lacks a guessed one.
 RadioWorld radio_world(const Scene& scene, const RadioWorldOptions& options,
                        Diagnostics& diagnostics);
 

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// A tag tells the length of its EPC in 5 bits, as words of 16.
+/// A tag gives the length of its EPC in 5 bits, in 16-bit words.
 constexpr std::size_t kMostBytes = 62;
 
 constexpr std::string_view kUrn = "urn:epc:";
@@ -44,7 +44,7 @@ std::string upper_case(std::string text) {
   return text;
 }
 
-/// Takes the scheme's name up to its colon from `rest`.
+/// Removes the scheme's name and its colon from the front of `rest`.
 EpcScheme take_scheme(std::string_view& rest, std::string_view suffix) {
   const std::size_t colon = rest.find(':');
   std::string_view name = rest.substr(0, colon);

@@ -97,12 +97,12 @@ void append_gid(const Epc& epc, BitWriter& bits) {
   }
 }
 
-/// Digits and capital letters but I and O, which look like digits.
+/// Digits and capital letters except I and O, which look like digits.
 bool is_cage_letter(char c) {
   return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z' && c != 'I' && c != 'O');
 }
 
-/// A CAGE code of 5 gets a space before it, a DoDAAC has 6.
+/// A CAGE code of 5 characters gets a leading space; a DoDAAC has 6.
 std::string padded_cage(const std::string& code) {
   if (code.size() + 1 < kCageLetters || code.size() > kCageLetters ||
       !std::all_of(code.begin(), code.end(), is_cage_letter)) {

@@ -57,7 +57,7 @@ EpcFieldPattern field_of(const std::string& text) {
   throw Error(fmt::format("'{}' must be digits, '*', 'X' or [LEAST-MOST]", text));
 }
 
-/// How many fields URIs of the scheme have, the filter not counted.
+/// Number of fields in URIs of the scheme, excluding the filter.
 std::size_t field_count(const SchemeLayout& layout) {
   if (layout.scheme == EpcScheme::kGid) return 3;
   return layout.serial.empty() || layout.scheme == EpcScheme::kUsdod ? 2 : 3;
@@ -95,7 +95,7 @@ void parse_scheme_pattern(std::string_view rest, bool is_tag, EpcPattern& patter
   }
 }
 
-/// Of one EPC's own URI.
+/// Parses the URI of a single EPC.
 void parse_epc_uri(const std::string& text, EpcPattern& pattern) {
   const Epc epc = epc_from_uri(text);
   pattern.scheme = epc.scheme;
@@ -129,7 +129,7 @@ bool field_matches(const EpcFieldPattern& field, const std::string& value) {
   return number && *number >= field.least && *number <= field.most;
 }
 
-/// The fields of an EPC that stand beside the pattern's.
+/// The fields of an EPC that correspond to the pattern's.
 std::vector<std::string> beside(const EpcPattern& pattern, const Epc& epc) {
   std::vector<std::string> values = epc.fields;
   if (pattern.has_filter) values.insert(values.begin(), fmt::format("{}", epc.filter));

@@ -50,7 +50,7 @@ void EpcisEvents::on_cycle(const CycleReports& reports) {
   }
 }
 
-/// One logical reader says where it is; of several nobody does.
+/// A single logical reader gives the location; several give none.
 EpcisContext EpcisEvents::context_of(const std::vector<std::string>& logical_readers) const {
   EpcisContext context;
   if (logical_readers.size() == 1) {
@@ -70,7 +70,7 @@ void EpcisEvents::tell(Time stamp, const std::vector<std::string>& logical_reade
                        const std::vector<std::string>& tags) const {
   const EpcisContext context = context_of(logical_readers);
   if (tags.empty() || (is_gone && context.gone_biz_step.empty())) return;
-  // Two IDs may be one EPC, and a list has each once.
+  // Two IDs may be the same EPC, and a list contains each only once.
   std::set<std::string> names;
   for (const std::string& tag : tags) names.insert(json_string(epcis_name(tag)));
   const Time time = start_ + stamp.time_since_epoch();

@@ -12,17 +12,18 @@
 
 namespace tagfield {
 
-/// What EPCIS calls a tag: its pure identity where its ID is an EPC of a scheme, else
-/// "urn:epc:raw:…" of the bits that it sends (sent_bits()).
+/// The name of a tag in EPCIS: the pure identity URI if its ID is an EPC of a known scheme,
+/// otherwise "urn:epc:raw:…" with the bits that it sends (sent_bits()).
 std::string epcis_name(const std::string& id);
 
-/// Makes ObjectEvents with action OBSERVE of what it is told: of each tag that is observed, or of
-/// each report of current tags or additions; of tags that are gone, or deletions, where there is a
-/// gone_biz_step. Reports of no tags make none.
+/// Makes ObjectEvents with action OBSERVE from its input: for each observed tag, or for each report
+/// of current tags or additions; for tags that are gone, or deletions, if there is a gone_biz_step.
+/// Reports without tags make no events.
 class EpcisEvents final : public EventListener {
  public:
-  /// Each event goes to `take` as one JSON object on one line; on its own, with `has_context`, it
-  /// has the JSON-LD context. Event time is `start`, since 1970, plus the stamp.
+  /// Each event is passed to `take` as one JSON object on one line, with the JSON-LD context if
+  /// `has_context` (for events outside a document). Event time is `start`, since 1970, plus the
+  /// timestamp.
   EpcisEvents(EventsSpec spec, Time start, bool has_context,
               std::function<void(const std::string& event)> take);
 
@@ -40,7 +41,7 @@ class EpcisEvents final : public EventListener {
   std::function<void(const std::string& event)> take_;
 };
 
-/// An EPCISDocument of events without a context each, made at `created` since 1970.
+/// An EPCISDocument of events that have no context of their own, created at `created` since 1970.
 std::string epcis_document(const std::vector<std::string>& events, Time created);
 
 }  // namespace tagfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Events as JSON, a line each.
+/// Events as JSON, one per line.
 #pragma once
 
 #include <functional>
@@ -11,16 +11,16 @@
 namespace tagfield {
 
 /// `{"eventType":"observed","timestamp":…,"logicalReader":…,"epc":…,"epcUri":…,"antennaName":…,
-/// "firstRead":…,"lastRead":…,"reads":…,"peakRssiCdbm":…}` and a line's end: times in UTC, `start`
-/// since 1970 plus the stamp; epcUri where the tag's ID is an EPC of a scheme.
+/// "firstRead":…,"lastRead":…,"reads":…,"peakRssiCdbm":…}` and a newline: times in UTC, `start`
+/// since 1970 plus the timestamp; epcUri only if the tag's ID is an EPC of a known scheme.
 std::string to_json_line(const PresenceEvent& event, Time start);
 
 /// `{"eventType":"cycle","cycle":…,"number":…,"begin":…,"end":…,"endedBy":…,"logicalReaders":[…],
 /// "reports":[{"name":…,"set":…,"count":…,"groups":[{"name":…,"count":…,"epcs":[…]}]}]}` and a
-/// line's end; the group of tags that no pattern means has the name null.
+/// newline; the group of tags that match no pattern has the name null.
 std::string to_json_line(const CycleReports& reports, Time start);
 
-/// Hands each event on as such a line.
+/// Passes each event on as such a line.
 class EventJson final : public EventListener {
  public:
   EventJson(Time start, std::function<void(const std::string& line)> take)

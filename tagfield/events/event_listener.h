@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What becomes of reads: who is there, and reports of event cycles.
+/// Events derived from reads: presence of tags, and reports of event cycles.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@
 
 namespace tagfield {
 
-/// How a tag's presence before a logical reader changes.
+/// How a tag's presence at a logical reader changes.
 enum class PresenceChange {
-  kGlimpsed,  ///< Read, after it was not there.
-  kObserved,  ///< Read as often as is asked for: it is there.
-  kGone,      ///< Not read any more, after it was observed.
+  kGlimpsed,  ///< Read, after it was absent.
+  kObserved,  ///< Read as often as required: it is present.
+  kGone,      ///< No longer read, after it was observed.
 };
 
 /// "glimpsed", "observed", "gone".
 const char* to_string(PresenceChange change);
 
 struct PresenceEvent {
-  Time stamp;  ///< Of the read that made it so, or when the time without reads was over.
+  Time stamp;  ///< Of the read that caused the change, or when the time without reads was over.
   PresenceChange change = PresenceChange::kGlimpsed;
   std::string logical_reader;
   std::string tag;
@@ -30,10 +30,10 @@ struct PresenceEvent {
   Time first_read;      ///< Since it was glimpsed.
   Time last_read;
   std::size_t reads = 0;       ///< Since it was glimpsed.
-  double most_rssi_dbm = 0.0;  ///< Of those.
+  double most_rssi_dbm = 0.0;  ///< The maximum of these.
 };
 
-/// Which tags a report is of.
+/// Which tags a report contains.
 enum class ReportSet {
   kCurrent,    ///< Read in this cycle.
   kAdditions,  ///< Read in this cycle, not in the one before.
@@ -44,25 +44,25 @@ enum class ReportSet {
 const char* to_string(ReportSet set);
 
 struct ReportGroup {
-  std::string name;               ///< The pattern, values in place of `X`; "" for all others.
+  std::string name;  ///< The pattern with values in place of `X`; "" for all other tags.
   std::vector<std::string> tags;  ///< Sorted.
 };
 
 struct CycleReport {
   std::string name;
   ReportSet set = ReportSet::kCurrent;
-  std::vector<ReportGroup> groups;  ///< By name; none is empty.
+  std::vector<ReportGroup> groups;  ///< Sorted by name; none is empty.
 };
 
 /// Why an event cycle ended.
 enum class CycleEnd { kDuration, kStable, kStop, kCut };
 
-/// "duration", "stable", "stop"; "cut" where the reads ended before it.
+/// "duration", "stable", "stop"; "cut" if the reads ended first.
 const char* to_string(CycleEnd end);
 
 struct CycleReports {
   std::string cycle;
-  std::size_t number = 0;  ///< From 1 on; cycles without any report are counted too.
+  std::size_t number = 0;  ///< From 1 on; cycles without any report also count.
   Time begin;
   Time end;
   CycleEnd why = CycleEnd::kDuration;
@@ -70,7 +70,7 @@ struct CycleReports {
   std::vector<CycleReport> reports;
 };
 
-/// Gets events in order of time, from one thread at a time.
+/// Receives events in chronological order, from one thread at a time.
 class EventListener {
  public:
   EventListener() = default;

@@ -21,7 +21,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Tells several what one is told.
+/// Forwards events to several listeners.
 class Several final : public EventListener {
  public:
   explicit Several(std::vector<std::shared_ptr<EventListener>> all) : all_(std::move(all)) {}
@@ -36,7 +36,7 @@ class Several final : public EventListener {
   std::vector<std::shared_ptr<EventListener>> all_;
 };
 
-/// When an antenna updated last, and before that.
+/// The last two updates of an antenna.
 struct Updates {
   std::optional<Time> before;
   std::optional<Time> last;
@@ -82,7 +82,7 @@ class EventStage::Impl {
   }
 
   void take(TagRead read) {
-    // What comes late counts as coming now.
+    // A late read counts as if it were made now.
     const Time now = now_ ? std::max(*now_, read.stamp) : read.stamp;
     read.stamp = now;
     advance(now);
@@ -163,7 +163,7 @@ class EventStage::Impl {
     presences_.emplace_back(reader.name, spec_.presence);
   }
 
-  /// Goes on with what is due first, if anything is by `now`.
+  /// Advances whatever is due first, if anything is due by `now`. Returns whether it was.
   bool advance_earliest(Time now) {
     Presence* presence = nullptr;
     EventCycle* cycle = nullptr;
@@ -188,7 +188,7 @@ class EventStage::Impl {
     return true;
   }
 
-  /// Places of the logical readers that the read's antenna belongs to.
+  /// Indices of the logical readers that the read's antenna belongs to.
   const std::vector<std::size_t>& way_of(const TagRead& read) {
     const auto [way, is_new] = ways_.try_emplace({read.reader, read.antenna});
     if (!is_new) return way->second;
@@ -203,7 +203,7 @@ class EventStage::Impl {
     return way->second;
   }
 
-  /// Without logical readers each reader is one.
+  /// If no logical readers are specified, each reader is one.
   void add_own_reader(const std::string& name) {
     for (const LogicalReader& reader : readers_) {
       if (reader.name == name) return;
@@ -224,7 +224,7 @@ class EventStage::Impl {
   EventsSpec spec_;
   Several listener_;
   std::vector<LogicalReader> readers_;
-  std::vector<Presence> presences_;  ///< Of each of those.
+  std::vector<Presence> presences_;  ///< One for each logical reader.
   std::vector<EventCycle> cycles_;
   std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> ways_;
   std::unordered_map<std::string, EpcToMatch> epcs_;

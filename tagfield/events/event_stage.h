@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Makes events of reads: a middleware's filtering and collecting, as an outlet.
+/// Turns reads into events: the filtering and collection of a middleware, as an outlet.
 #pragma once
 
 #include <memory>
@@ -13,31 +13,32 @@
 
 namespace tagfield {
 
-/// Turns reads into events. What is asked for is told in order of time.
+/// Turns reads into the requested events, in chronological order.
 class EventStage final : public ReadListener {
  public:
-  /// All of `listeners` are told, in this order.
+  /// All `listeners` are notified, in this order.
   EventStage(EventsSpec spec, std::vector<std::shared_ptr<EventListener>> listeners);
   ~EventStage() override;
 
   void on_read(const TagRead& read) override;
-  /// Of antennas that update and read nothing, time is known by their updates: reads from before
-  /// the last but one have all been told.
+  /// Advances time by the updates of antennas, even those that read nothing: all reads older than
+  /// an antenna's last update but one have been received.
   void on_update(const AntennaInfo& antenna, Time stamp) override;
   void on_antenna_removed(const std::string& name) override;
-  /// What was there is forgotten, and nothing told of it.
+  /// Forgets all tags without notifying of any.
   void on_restart() override;
 
-  /// No read before `now` will come: what is due by then is told.
+  /// Emits what is due by `now`; no read before `now` may follow.
   void advance(Time now);
-  /// No read will come any more: what is due by `end` is told, and reports of cycles that go on.
+  /// Emits what is due by `end`, and reports of cycles in progress; no reads may follow.
   void finish(Time end);
 
-  /// Tags that are observed and not gone, by logical reader and ID: each as it would be told now.
+  /// Tags that are observed and not gone, sorted by logical reader and ID, each as it would be
+  /// reported now.
   [[nodiscard]] std::vector<PresenceEvent> present() const;
 
-  /// Antennas and readers that logical readers name and nothing was read of, each as
-  /// "antenna 'left' of logical reader 'gate'".
+  /// Antennas and readers that logical readers name but that have read nothing, each as "antenna
+  /// 'left' of logical reader 'gate'".
   [[nodiscard]] std::vector<std::string> unheard() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What events are asked for, after GS1's Application Level Events (ALE) 1.1.
+/// Specification of events, modelled on GS1's Application Level Events (ALE) 1.1.
 #pragma once
 
 #include <chrono>
@@ -14,8 +14,8 @@
 
 namespace tagfield {
 
-/// Which tags count: those that one of `include` means, or all where it is empty, but none that one
-/// of `exclude` means.
+/// Which tags count: those that match a pattern of `include`, or all if it is empty, except those
+/// that match one of `exclude`.
 struct EpcFilter {
   std::vector<EpcPattern> include;
   std::vector<EpcPattern> exclude;
@@ -23,29 +23,29 @@ struct EpcFilter {
 
 bool takes(const EpcFilter& filter, const EpcToMatch& tag);
 
-/// What EPCIS says of where and why; "" for what it shall not say.
+/// The where and why of an EPCIS event; "" for what to leave out.
 struct EpcisContext {
   std::string read_point;     ///< A URI.
   std::string biz_location;   ///< A URI.
   std::string biz_step;       ///< A word of the Core Business Vocabulary, or a URI.
-  std::string gone_biz_step;  ///< Of tags that are gone, which are told only with it.
+  std::string gone_biz_step;  ///< For tags that are gone, which are reported only if it is set.
   std::string disposition;    ///< A word of the Core Business Vocabulary, or a URI.
 };
 
-/// Antennas that are one place to whoever gets the events.
+/// Antennas that count as one location for the consumer of events.
 struct LogicalReader {
   std::string name;
   std::vector<std::string> antennas;
-  std::vector<std::string> readers;      ///< All of whose antennas belong to it, too.
+  std::vector<std::string> readers;      ///< Readers, all of whose antennas belong to it as well.
   std::optional<double> least_rssi_dbm;  ///< Weaker reads don't count.
   EpcisContext epcis;
 };
 
-/// When a tag is there.
+/// When a tag counts as present.
 struct PresenceRule {
-  std::size_t reads = 1;  ///< So many reads within `within` make it observed,
+  std::size_t reads = 1;  ///< This many reads within `within` make it observed,
   Duration within = std::chrono::seconds(1);
-  Duration gone_after = std::chrono::seconds(2);  ///< and this time without any makes it gone.
+  Duration gone_after = std::chrono::seconds(2);  ///< and this time without reads makes it gone.
   EpcFilter filter;
 };
 
@@ -53,35 +53,35 @@ struct ReportSpec {
   std::string name;
   ReportSet set = ReportSet::kCurrent;
   EpcFilter filter;
-  std::vector<EpcPattern> groups;  ///< A tag is in that of the first that means it.
-  bool if_empty = false;           ///< It is told although it has no tags.
-  bool only_on_change = false;     ///< It is told only where its tags are others than before.
+  std::vector<EpcPattern> groups;  ///< A tag is in the group of the first pattern that it matches.
+  bool if_empty = false;           ///< Whether to send it even without tags.
+  bool only_on_change = false;     ///< Whether to send it only if its tags have changed.
 };
 
-/// An event cycle, again and again. Cycles begin at `start` and whole multiples of `repeat` after
-/// it, or without that of `duration`, or, without both, where the last one ended.
+/// A repeating event cycle. Cycles begin at `start` and at integer multiples of `repeat` after it;
+/// without `repeat`, of `duration`; without either, at the end of the last one.
 struct CycleSpec {
   std::string name;
-  std::vector<std::string> logical_readers;  ///< All where it is empty.
+  std::vector<std::string> logical_readers;  ///< All if empty.
   Time start;
-  std::optional<Time> stop;  ///< Ends the cycle that goes on then; none begins any more.
+  std::optional<Time> stop;  ///< Ends the cycle in progress; no further one begins.
   std::optional<Duration> duration;
   std::optional<Duration> repeat;  ///< At least `duration`.
-  std::optional<Duration> stable;  ///< A cycle ends after so long without a new tag.
+  std::optional<Duration> stable;  ///< A cycle ends after this time without a new tag.
   std::vector<ReportSpec> reports;
 };
 
-/// What events of EPCIS are made of.
+/// What EPCIS events are made from.
 enum class EpcisSource { kPresence, kReports };
 
 struct EpcisSpec {
   EpcisSource source = EpcisSource::kPresence;
   std::chrono::minutes zone{0};  ///< Offset of event times from UTC.
-  EpcisContext otherwise;        ///< Where a logical reader says nothing.
+  EpcisContext otherwise;        ///< Defaults for what a logical reader does not set.
 };
 
 struct EventsSpec {
-  /// Where there is none, each reader is one, of its own name.
+  /// If empty, each reader is a logical reader of the same name.
   std::vector<LogicalReader> logical_readers;
   PresenceRule presence;
   std::vector<CycleSpec> cycles;

@@ -97,7 +97,7 @@ const std::vector<std::string>& dispositions() {
   return all;
 }
 
-/// A scheme, a colon, and only what RFC 3986 allows.
+/// Whether it is a scheme, a colon, and only characters allowed by RFC 3986.
 bool is_uri(const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == 0 || colon == std::string::npos || colon + 1 == text.size()) return false;
@@ -131,7 +131,7 @@ std::string word_at(YamlMap& map, const std::string& key, const std::vector<std:
   return text;
 }
 
-/// What both the logical readers and the section `epcis` may say.
+/// The settings common to logical readers and the section `epcis`.
 EpcisContext words_of(YamlMap& map) {
   EpcisContext context;
   context.biz_step = word_at(map, "biz_step", biz_steps());
@@ -162,7 +162,7 @@ EpcFilter filter_of(YamlMap& map) {
   return {patterns_at(map, "include"), patterns_at(map, "exclude")};
 }
 
-/// Longer than 0 to the nanosecond.
+/// A duration of at least a nanosecond.
 Duration duration_at(YamlMap& map, const std::string& key) {
   const YamlValue value = map.at(key);
   const Duration duration = duration_from_seconds(seconds_of(value, kPositive));
@@ -216,7 +216,7 @@ ReportSpec report_of(YamlMap map) {
   return report;
 }
 
-/// Throws unless each is one of `readers`, where these are named at all.
+/// Throws unless each name is one of `readers`, if these are named at all.
 void require_known(const YamlValue& names, const std::vector<LogicalReader>& readers) {
   std::vector<std::string> known;
   known.reserve(readers.size());
@@ -280,7 +280,7 @@ EpcisSpec epcis_of(YamlMap map, bool has_cycles) {
   return spec;
 }
 
-/// Throws where two have one name.
+/// Throws if two have the same name.
 template <class Named>
 void require_unique(const std::vector<Named>& all, const YamlValue& list) {
   std::set<std::string> names;

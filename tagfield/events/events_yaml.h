@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What events are asked for, as docs/events.md tells to write it.
+/// Specification of events in YAML; see docs/events.md for the format.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace tagfield {
 
-/// The section `events`. Throws Error "FILE:LINE: …" on what is malformed or not known.
+/// Parses the section `events`. Throws Error "FILE:LINE: …" on malformed or unknown content.
 EventsSpec events_spec_of(YamlMap map);
 
-/// Of a file that has that section alone.
+/// Reads a file that contains only that section.
 EventsSpec read_events_spec(const std::string& path);
 
 }  // namespace tagfield

@@ -6,7 +6,7 @@
 namespace tagfield {
 namespace {
 
-/// Whether the effect does anything to this antenna.
+/// Whether the effect changes anything for this antenna.
 bool acts(const RadioModel& model, const EffectSwitch& effect) {
   if (!(model.effects.*effect.on)) return false;
   if (effect.on == &RadioEffects::reflections) return model.reflection_order > 0;
@@ -35,7 +35,7 @@ EffectCost cost_of(const std::vector<SeedRun>& runs) {
   return cost;
 }
 
-/// One row to be filled in.
+/// One row to fill in.
 struct Variant {
   std::string effect;
   EffectSet set = EffectSet::kNone;
@@ -100,7 +100,7 @@ std::vector<EffectCost> break_down(const Scenario& scenario, std::uint64_t first
   std::vector<EffectCost> costs;
   if (effects_in(scenario).empty()) return costs;
   const std::vector<Variant> variants = variants_of(scenario);
-  Scenario alone = scenario;  // The costs are those of the one method.
+  Scenario alone = scenario;  // Costs are for one method only.
   alone.localization.compare.clear();
   RunControl of_one = control;
   for (const Variant& variant : variants) {

@@ -30,7 +30,7 @@ std::vector<double> errors_of(const std::vector<TagOutcome>& outcomes) {
   return errors;
 }
 
-/// Horizontal rms distance between the believed and the true antenna poses [m].
+/// Horizontal RMS distance between the believed and the true antenna poses [m].
 double position_rms(const Recording& recording) {
   const std::vector<AntennaPose>& truth = recording.truth.antenna_poses;
   double sum = 0.0;
@@ -68,7 +68,7 @@ void finish(const Simulation& simulation, SeedRun& run) {
   run.path_length_m = simulation.travelled_m();
 }
 
-/// A recording, and whoever else wants to know.
+/// The control's outlets, plus a recorder if the recording is kept.
 Outlets outlets_of(const RunControl& control, Recording& recording) {
   Outlets outlets = control.outlets;
   if (control.keeps_recording) attach(std::make_shared<Recorder>(recording), outlets);
@@ -103,13 +103,13 @@ std::vector<TagOutcome> outcomes_of(const SeedRun& run, const LocalizationOption
                 run.seed);
 }
 
-/// By the scenario's other methods, each once.
+/// Results of the scenario's other methods, each once.
 std::vector<ComparedMethod> compared(const Scenario& scenario, const SeedRun& run,
                                      LocalizationOptions options) {
   std::vector<ComparedMethod> others;
   std::set<std::string> done = {run.method};
   for (const std::string& name : scenario.localization.compare) {
-    Diagnostics unheard;  // What there is to warn of, the run's own method has said.
+    Diagnostics unheard;  // The run's own method has given all warnings already.
     options.method = name;
     const LocalizationResult result =
         located(scenario, run.recording, run.recording.believed_poses, options, unheard);
@@ -119,7 +119,7 @@ std::vector<ComparedMethod> compared(const Scenario& scenario, const SeedRun& ru
   return others;
 }
 
-/// An inventory: each tag as it was read, none with a place.
+/// Fills in an inventory: all tags as not located.
 void leave_unlocated(const Scenario& scenario, const std::string& why, SeedRun& run) {
   run.method = kNoLocalization;
   run.method_why = why;
@@ -138,7 +138,7 @@ std::optional<InventorySummary> mean_inventory(const std::vector<SeedRun>& runs)
   return mean_of(all);
 }
 
-/// Of all seeds: the run's own method, then the others.
+/// Summaries over all seeds: the run's own method, then the others.
 std::vector<MethodSummary> compared_methods(const std::string& method, bool believed,
                                             const std::vector<SeedRun>& runs,
                                             const std::vector<TagOutcome>& own) {
@@ -159,7 +159,7 @@ std::vector<MethodSummary> compared_methods(const std::string& method, bool beli
   return methods;
 }
 
-/// What was used, over all seeds, in the order in which it first was.
+/// The methods used over all seeds, in order of first use.
 std::string methods_of(const std::vector<SeedRun>& runs) {
   std::string names;
   std::set<std::string> done;
@@ -170,7 +170,8 @@ std::string methods_of(const std::vector<SeedRun>& runs) {
   return names;
 }
 
-/// Of a seed that is not the first, which alone goes to the outlets; its recording is not kept.
+/// The run of a seed other than the first; only the first one goes to the outlets and keeps its
+/// recording.
 SeedRun another_seed(const Scenario& scenario, std::uint64_t seed, RunControl control,
                      const NavigationWorld* world, RunStore* store, Diagnostics& warnings) {
   const RunKey key{0, seed};
@@ -189,7 +190,7 @@ SeedRun another_seed(const Scenario& scenario, std::uint64_t seed, RunControl co
   return run;
 }
 
-/// Simulated time that went into the map.
+/// Simulated time spent on mapping.
 double mapping_s(const SeedRun& run) {
   return run.navigation && run.navigation->survey ? run.navigation->survey->simulated_s : 0.0;
 }
@@ -273,7 +274,7 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
   std::vector<char> begun(count, 0);
   std::mutex progress_mutex;
   double finished = 0.0;
-  // One seed alone shows how far it is; of several the finished ones are counted.
+  // A single seed reports its own progress; for several the finished ones are counted.
   RunControl of_one = control;
   if (count > 1) {
     of_one.on_progress = nullptr;
@@ -298,7 +299,7 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
   });
   std::vector<SeedRun> kept;
   for (std::size_t i = 0; i < count; ++i) {
-    // An interrupted seed would spoil the statistics of the whole ones.
+    // An interrupted seed would distort the statistics of the complete ones.
     if (begun[i] != 0 && (i == 0 || runs[i].complete)) kept.push_back(std::move(runs[i]));
     for (const std::string& warning : warnings[i].warnings()) diagnostics.warn(warning);
   }

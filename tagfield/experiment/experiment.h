@@ -17,7 +17,7 @@
 
 namespace tagfield {
 
-/// What another method makes of a run's reads.
+/// The result of another method for a run's reads.
 struct ComparedMethod {
   std::string method;
   std::vector<TagOutcome> outcomes;  ///< In the scenario's order of tags.
@@ -26,42 +26,44 @@ struct ComparedMethod {
 /// One seed's run.
 struct SeedRun {
   std::uint64_t seed = 0;
-  bool complete = true;  ///< False where it was stopped.
+  bool complete = true;  ///< False if it was stopped.
   double simulated_s = 0.0;
   double path_length_m = 0.0;  ///< Driven by all robots.
   Recording recording;
-  std::optional<NavigationRun> navigation;  ///< Where robots find their way by themselves.
-  std::string method;                       ///< That located the tags.
-  std::string method_why;                   ///< Why "auto" chose it; "" where it was asked for.
+  std::optional<NavigationRun> navigation;  ///< If robots navigate by themselves.
+  std::string method;                       ///< The method that located the tags.
+  std::string method_why;                   ///< Why "auto" chose it; "" if it was requested.
   std::vector<TagEstimate> estimates;       ///< In the scenario's order of tags.
-  std::vector<TagOutcome> outcomes;         ///< Likewise.
-  /// Errors of the same reads located with the true poses; empty where those are believed anyway.
+  std::vector<TagOutcome> outcomes;         ///< In the same order.
+  /// Errors of localization from the same reads with the true poses; empty if the believed poses
+  /// are the true ones.
   std::vector<double> errors_with_true_pose_m;
-  std::vector<AntennaPose> corrected_poses;  ///< Of methods that estimate the poses' error.
-  /// Who was read, by whom and how soon, where all antennas stand still or nothing else is asked.
+  std::vector<AntennaPose> corrected_poses;  ///< From methods that estimate the pose error.
+  /// Which tags were read, by which reader and how soon, if all antennas are stationary or nothing
+  /// else is requested.
   std::optional<InventorySummary> inventory;
-  std::vector<ComparedMethod> compared;  ///< None of them the same as `method`.
+  std::vector<ComparedMethod> compared;  ///< None of them is `method`.
 };
 
-/// Simulates one seed, in step with real time if the scenario asks for it. `world` is for robots
-/// that find their way by themselves, and may be null where none does: these map it first, unless a
-/// map is given.
+/// Simulates one seed, synchronized with real time if the scenario requests it. `world` is for
+/// robots that navigate by themselves, which map it first unless a map is given; it may be null if
+/// there are none.
 SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                  const NavigationWorld* world = nullptr);
 
-/// Of the map that the run's robot has made of the world; none where it was given or not needed.
+/// The error of the map made by the run's robot; none if the map was given or not needed.
 std::optional<MapError> map_error_of(const Scenario& scenario, const SeedRun& run);
 
-/// Locates the tags from the run's reads and believed poses, unless nothing can be or shall be
-/// located (why_inventory_alone()), and fills in all that comes of it.
+/// Locates the tags from the run's reads and believed poses, unless localization is impossible or
+/// not requested (why_inventory_alone()), and fills in all results.
 void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics,
               const OnLocating& on_locating = {});
 
 class RunStore;  // of store/run_store.h
 
 /// Simulates and localizes `count` ≥ 1 seeds from `first` on, in parallel. Recordings are kept of
-/// the first only. Seeds not begun when `control.stop` was set are left out. What others than the
-/// first come to goes into `store`, where given, or is taken from there (its keys: point 0, seed).
+/// the first only. Seeds not begun when `control.stop` was set are left out. If `store` is given,
+/// results of all seeds but the first are added to it, or taken from it (its keys: point 0, seed).
 std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, std::size_t count,
                                const RunControl& control, Diagnostics& diagnostics,
                                const NavigationWorld* world = nullptr, RunStore* store = nullptr);
@@ -69,7 +71,7 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
 /// How this scenario's tags are to be located.
 LocalizationOptions localization_options(const Scenario& scenario, int threads);
 
-/// The numbers of all runs. `wall_s` is how long they took.
+/// The summary of all runs. `wall_s` is the wall-clock time they took.
 Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, double wall_s,
                   const Diagnostics& diagnostics, const NavigationWorld* world = nullptr);
 

@@ -20,7 +20,7 @@ std::string kind_of(const std::string& message) {
   return kind;
 }
 
-/// How many parts each method located, "ml of 12, joint of 3".
+/// Number of parts located by each method, "ml of 12, joint of 3".
 std::string spoken(const std::map<std::string, std::size_t>& parts_by_method) {
   std::vector<std::string> words;
   words.reserve(parts_by_method.size());

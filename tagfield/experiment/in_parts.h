@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Localization of more reads than fit in memory, in parts of some tags each.
+/// Localization from more reads than fit in memory, in parts of a few tags each.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,14 @@
 
 namespace tagfield {
 
-/// Reads of whole tags, part after part.
+/// Reads in parts, each with all reads of its tags.
 struct ReadParts {
   std::size_t count = 1;
   std::function<std::vector<TagRead>(std::size_t part)> reads;
 };
 
-/// Warnings of parts: those that say the same but for numbers are one, in the words of the first.
+/// Merges the warnings of parts: those that differ only in numbers become one, with the text of the
+/// first.
 class WarningsOfParts {
  public:
   explicit WarningsOfParts(std::size_t parts) : parts_(parts) {}
@@ -30,13 +31,13 @@ class WarningsOfParts {
  private:
   std::size_t parts_;
   std::vector<std::string> order_;
-  std::map<std::string, std::pair<std::string, std::size_t>> said_;  ///< Text, by how many parts.
+  std::map<std::string, std::pair<std::string, std::size_t>> said_;  ///< Text, number of parts.
 };
 
-/// Locates each part's tags as locate_tags() locates them where there are no others. A tag that is
-/// in several parts, such as a reference tag, has the first part's estimate. "auto" chooses for
-/// each part; `method` is "auto" where it chose differently. There are no corrected poses, which
-/// each part would have its own of.
+/// Locates each part's tags as locate_tags() would without any others. A tag in several parts, such
+/// as a reference tag, gets the estimate of the first part. "auto" chooses per part; `method` is
+/// "auto" if the choices differ. There are no corrected poses, since they would differ between
+/// parts.
 LocalizationResult locate_in_parts(const ReadParts& parts, const std::vector<AntennaPose>& poses,
                                    const LocalizationOptions& options, Diagnostics& diagnostics);
 

@@ -18,7 +18,7 @@ constexpr std::size_t kMostMoments = 200;
 constexpr std::size_t kMostLevels = 8;
 constexpr double kSameLevel_m = 0.05;
 
-/// Who a tag is meant for and what was read of it.
+/// The zone of a tag and its reads.
 struct TagTally {
   std::size_t zone = 0;
   double height_m = 0.0;
@@ -32,7 +32,7 @@ using Tallies = std::map<std::string, TagTally>;
 
 Eigen::Vector3d place_of(const TagSpec& tag) { return tag.motion.front().X_WB.translation; }
 
-/// A zone for each reader, where there are several.
+/// One zone per reader, if there are several.
 std::vector<ZoneSpec> zones_by_nearness(const std::vector<std::string>& readers) {
   std::vector<ZoneSpec> zones;
   if (readers.size() < 2) return zones;
@@ -173,14 +173,15 @@ std::vector<ZoneInventory> Tally::by_zone() const {
   for (const auto& [id, tag] : tallies_) {
     ZoneInventory& zone = tag.zone < all.size() ? all[tag.zone] : elsewhere;
     add_to_zone(tag, zone);
-    // Nobody is meant to read there, so nobody reads it wrongly.
+    // No reader is meant to read there, so no read is a cross-read.
     if (zone.readers.empty()) zone.crossed = zone.read_by_own = 0.0;
   }
   if (!all.empty() && elsewhere.tags > 0) all.push_back(elsewhere);
   return all;
 }
 
-/// Levels of a rack, or as many equal ranges of heights where the tags lie on no few levels.
+/// Levels of a rack, or kMostLevels equal ranges of height if the tags are on more levels than
+/// that.
 std::vector<LevelInventory> Tally::by_level() const {
   std::vector<double> heights;
   for (const auto& [id, tag] : tallies_) heights.push_back(tag.height_m);

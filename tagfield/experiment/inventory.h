@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A run as an inventory: which tags were read, by whom, and how soon, whether they are located or
-/// not.
+/// A run as an inventory: which tags were read, by which readers, and how soon, whether or not they
+/// are located.
 #pragma once
 
 #include <string>
@@ -12,15 +12,16 @@
 
 namespace tagfield {
 
-/// Whether all antennas stand still.
+/// Whether all antennas are stationary.
 bool all_antennas_rest(const Scenario& scenario);
 
-/// Why nothing is located, in one line: the scenario asks for nothing, or its method needs an
-/// antenna that moves and none does. "" where tags are located.
+/// Why there is no localization, in one line: the scenario does not request it, or its method needs
+/// a moving antenna and there is none. "" if tags are located.
 std::string why_inventory_alone(const Scenario& scenario);
 
-/// What `duration_s` of reads come to. Tags count for the zone that they begin in; without zones
-/// for that of the reader that is nearest to them then, where there are several.
+/// The summary of `duration_s` of reads. Tags belong to the zone that they are in initially.
+/// Without zones they belong to that of the initially nearest reader, if there are several and all
+/// antennas are stationary.
 InventorySummary inventory_of(const Scenario& scenario, const std::vector<TagRead>& reads,
                               double duration_s);
 

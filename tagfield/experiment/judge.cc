@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSettling = 0.005;  ///< [m]
 
-/// Where a tag was, over all times.
+/// The positions of a tag over time.
 struct Places {
   Eigen::AlignedBox3d box;
   Eigen::Vector3d last;
@@ -30,7 +30,7 @@ std::map<std::string, Places> places_of(const Truth& truth) {
   return places;
 }
 
-/// `order`, then all others that were read or that the truth knows.
+/// `order`, then all others that were read or are in the truth.
 std::vector<std::string> all_tags(const std::vector<TagEstimate>& estimates, const Truth& truth,
                                   const std::vector<std::string>& order) {
   std::vector<std::string> others;

@@ -35,7 +35,7 @@ std::map<std::string, Eigen::Vector3d> reference_tags_of(const Scenario& scenari
   return places;
 }
 
-/// Those of the paper's model; readers of the physical models have offsets that nobody knows.
+/// Offsets of the paper's model; those of the physical models' readers are unknown.
 std::vector<KnownOffset> offsets_of(const Scenario& scenario) {
   std::vector<KnownOffset> offsets;
   if (!scenario.localization.offset_known) return offsets;
@@ -51,20 +51,21 @@ std::vector<KnownOffset> offsets_of(const Scenario& scenario) {
   return offsets;
 }
 
-/// What the source of the pose says of itself; of odometry and laser nothing is known.
+/// The error model stated by the pose source; none for odometry and laser.
 std::optional<PoseErrorModel> pose_error_of(const Scenario& scenario) {
   const PoseBelief& pose = scenario.pose;
   if (scenario.localization.pose_error) return scenario.localization.pose_error;
   const bool any_on_a_robot =
       std::any_of(scenario.antennas.begin(), scenario.antennas.end(),
                   [](const AntennaSpec& antenna) { return !antenna.on.empty(); });
-  // Where fixed and recorded antennas are is known exactly.
+  // Poses of fixed and recorded antennas are known exactly.
   if (pose.source == PoseSource::kTrue || !any_on_a_robot) return PoseErrorModel{};
   if (pose.source != PoseSource::kNoisy) return std::nullopt;
   return PoseErrorModel{pose.sigma_m, pose.yaw_sigma_rad, pose.time_constant_s};
 }
 
-/// Whose waves turn the phases of tags with one wire.
+/// Antennas with circular polarization, where a tag's phase depends on the orientation of its
+/// dipole.
 std::map<std::string, Hand> circular_antennas(const Scenario& scenario) {
   std::map<std::string, Hand> circular;
   for (const AntennaSpec& antenna : scenario.antennas) {
@@ -89,7 +90,7 @@ KnownBeforehand known_beforehand(const Scenario& scenario) {
   known.limits = scenario.localization.limits;
   known.trace = traced_replies(scenario);
   known.circular = circular_antennas(scenario);
-  // Between two updates an antenna's poses are as far apart as its rate says.
+  // Successive poses of an antenna are separated by its update interval.
   for (const AntennaSpec& antenna : scenario.antennas) {
     known.max_pose_gap_s = std::max(known.max_pose_gap_s, 1.5 / antenna.parameters.rate_hz);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What localization may know of a scenario before any read comes.
+/// Prior knowledge of localization about a scenario.
 #pragma once
 
 #include "tagfield/localization/problem.h"
@@ -8,12 +8,12 @@
 
 namespace tagfield {
 
-/// How far surfaces of a scenario's world may be off [m] where the reads may be of a real hall that
-/// somebody measured; a run was simulated in that very world.
+/// Uncertainty of the surfaces of a scenario's world [m] if the reads may be from a real hall that
+/// was surveyed. A simulated run has no such uncertainty.
 inline constexpr double kMeasuredWorldSigma_m = 0.01;
 
-/// Heights, reference tags, offsets and the pose error's model, as far as the scenario's
-/// `localization` says that they are known.
+/// Heights, reference tags, offsets and the model of the pose error, as far as the scenario's
+/// `localization` states that they are known.
 KnownBeforehand known_beforehand(const Scenario& scenario);
 
 }  // namespace tagfield

@@ -24,8 +24,8 @@ struct KnownTag {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
-/// Images of places that are asked for again: of antennas, by many tags and many places of a tag,
-/// and of a tag, by all antennas and each round of a fit. Used by several threads at once.
+/// Cache of images for positions that are requested repeatedly: antennas by many tags and many
+/// positions of a tag, and a tag by all antennas and each iteration of a fit. Thread-safe.
 class KeptImages {
  public:
   std::shared_ptr<const ImageSet> at(const RadioScene& scene, const Eigen::Vector3d& p_W,
@@ -48,7 +48,7 @@ class KeptImages {
   }
 
  private:
-  static constexpr std::size_t kMost = 1000000;  ///< Images, some 100 MB.
+  static constexpr std::size_t kMost = 1000000;  ///< Number of images, about 100 MB.
   using Key = std::tuple<int, double, double, double>;
   std::mutex mutex_;
   std::map<Key, std::pair<TraceOptions, std::shared_ptr<const ImageSet>>> images_;
@@ -62,15 +62,15 @@ struct KnownWorld {
   std::map<std::string, KnownTag> tags;
 };
 
-/// What replies from one place have in common.
+/// What replies from one tag position have in common.
 struct PlacedTag {
   const TagModel& model;
   RigidTransform X_WT;
   const ImageSet& images;
 };
 
-/// A path as if it came straight, without what its length does to it. `reversed`: it was traced
-/// from the tag.
+/// A path as a straight wave from its image source, with the effect of its length divided out.
+/// `reversed`: it was traced from the tag.
 TracedWave wave_of(const RadioPath& path, bool reversed, const Complex& gain,
                    const Eigen::Vector3d& p_WT, double wave_number) {
   const Eigen::Vector3d arrival_W = reversed ? Eigen::Vector3d(-path.departure_W) : path.arrival_W;
@@ -96,7 +96,7 @@ std::vector<TracedWave> waves_from(const KnownAntenna& known, const Carrier& car
   const ChannelEffects effects{model.effects.patterns, model.effects.polarization};
   const RadioEnd antenna{model.antenna, X_WA};
   const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
-  // The tag's images serve all poses, but only from within the same solids.
+  // The tag's images can be used for all antenna poses, but only inside the same solids.
   const bool reversed = shells_around(world.scene, X_WA.translation) == tag.images.around;
   if (reversed) {
     trace_paths(world.scene, tag.images, X_WA.translation, tracing, paths);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A scenario's world as localization may know it: what becomes of a tag's reply on its way.
+/// A scenario's world as known to localization: how a tag's reply propagates.
 #pragma once
 
 #include "tagfield/localization/problem.h"
@@ -8,9 +8,10 @@
 
 namespace tagfield {
 
-/// Traces replies through the scenario's world by the antennas' own models, tags being of their
-/// kind and lying as the scenario says (of IDs that it does not have: of the usual kind, upright).
-/// Diffuse waves are left out, as nobody knows them. Null where no antenna's waves meet the world.
+/// Traces replies through the scenario's world with the antennas' own models. Tags have their model
+/// and orientation of the scenario; those with unknown IDs have the default model and stand
+/// upright. Diffuse waves are left out, as they are unknown. Null if no antenna's waves interact
+/// with the world.
 TraceReplies traced_replies(const Scenario& scenario);
 
 }  // namespace tagfield

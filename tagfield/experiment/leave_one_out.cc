@@ -15,7 +15,7 @@
 namespace tagfield {
 namespace {
 
-/// Counts tags, and keeps nothing else of a run.
+/// Counts the tags read, and keeps nothing else of a run.
 class TagCounter final : public ReadListener {
  public:
   void on_read(const TagRead& read) override { tags_.insert(read.tag); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What each antenna is worth: the same run without it.
+/// What each antenna contributes: the same run without it.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 namespace tagfield {
 
 /// The scenario without the antennas whose names match one of `patterns` (base/wildcard.h). Throws
-/// Error where one matches none, and where no antenna is left.
+/// Error if a pattern matches none, and if no antenna is left.
 void take_antennas_away(const std::vector<std::string>& patterns, Scenario& scenario);
 
-/// Tags read without each antenna in turn, the mean over `count` ≥ 1 seeds from `first` on, in the
-/// scenario's order of antennas; in parallel over all. Those not begun when `control.stop` was set
-/// are left out. Empty where there is but one antenna. Throws Error where robots find their way by
-/// themselves.
+/// Number of tags read without each antenna in turn, averaged over `count` ≥ 1 seeds from `first`
+/// on, in the scenario's order of antennas. All runs are in parallel. Those not begun when
+/// `control.stop` was set are left out. Empty if there is only one antenna. Throws Error if robots
+/// navigate by themselves.
 std::vector<InventoryWithout> leave_one_out(const Scenario& scenario, std::uint64_t first,
                                             std::size_t count, const RunControl& control);
 

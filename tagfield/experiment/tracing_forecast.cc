@@ -69,7 +69,7 @@ Trial try_order(const Scenario& scenario, const Eigen::Vector3d& p_W, int order)
   return {for_images + for_paths * all, images.images.size()};
 }
 
-/// The moving antenna with the most bounces; null if none has any.
+/// The moving antenna with the highest order of reflection; null if none has any.
 const AntennaSpec* farthest(const Scenario& scenario) {
   const AntennaSpec* most = nullptr;
   for (const AntennaSpec& antenna : scenario.antennas) {
@@ -103,7 +103,7 @@ std::optional<TracingForecast> tracing_forecast(const Scenario& scenario, int or
   const Eigen::Vector3d p_W = start_of(scenario, *antenna);
   Trial trial = try_order(scenario, p_W, 0);
   TracingForecast forecast{0, trial.seconds * updates, true};
-  // Each image is mirrored at no more facets than the antenna itself is.
+  // Each image is mirrored at no more facets than the antenna itself.
   double most_growth = 1.0;
   for (int next = 1; next <= order; ++next) {
     const double most_seconds = trial.seconds * most_growth;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How long a run will trace paths, told before it begins.
+/// Forecast of the time that a run will spend on tracing paths.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,20 @@
 
 namespace tagfield {
 
-/// For one order of reflection.
+/// The forecast for one order of reflection.
 struct TracingForecast {
   int order = 0;
-  double seconds = 0.0;      ///< Of one core, for all updates of the antennas that move.
-  bool is_measured = false;  ///< At one place; else the most it can be by the order below.
+  double seconds = 0.0;      ///< On one core, for all updates of the moving antennas.
+  bool is_measured = false;  ///< At one position; else an upper limit from the order below.
 };
 
-/// What the run spends on antennas' images and paths in its world, for `order`; none where no
-/// moving antenna meets a world with reflections. Each order up to it is tried at one place of one
-/// antenna, unless that could take over ten seconds by what the order below took.
+/// Time the run will spend on antennas' images and paths in its world, for `order`; none if no
+/// moving antenna has reflections. Each order up to it is tried at one position of one antenna,
+/// unless the time for the order below implies that it could take over ten seconds.
 std::optional<TracingForecast> tracing_forecast(const Scenario& scenario, int order);
 
-/// Warns, with the order that would fit, where tracing will take over ten minutes of one core.
+/// Warns if tracing will take over ten minutes on one core, suggesting an order that is fast
+/// enough.
 void warn_of_long_tracing(const Scenario& scenario, Diagnostics& diagnostics);
 
 }  // namespace tagfield

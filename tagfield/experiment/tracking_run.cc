@@ -17,7 +17,7 @@
 namespace tagfield {
 namespace {
 
-/// Tags at rest are not what tracking is asked for.
+/// Simulates the scenario and keeps what tracking needs.
 TrackingRun simulated(const Scenario& scenario, std::uint64_t seed, const RunControl& control) {
   Recording recording;
   Simulation simulation(scenario, seed, recorded_in(recording));
@@ -53,13 +53,13 @@ void thin(std::vector<double>& errors) {
   errors.shrink_to_fit();
 }
 
-/// Adds what tags of a part passed.
+/// Adds the passings of a part's tags.
 void add_passings(std::vector<PassingOrder> of_part, std::vector<PassingOrder>& orders) {
   if (orders.empty()) {
     orders = std::move(of_part);
     return;
   }
-  for (std::size_t i = 0; i < of_part.size(); ++i) {  // The same things passed, in the same order.
+  for (std::size_t i = 0; i < of_part.size(); ++i) {  // Same order in all parts.
     std::vector<Passing>& all = orders[i].passings;
     const auto middle = static_cast<std::ptrdiff_t>(all.size());
     std::move(of_part[i].passings.begin(), of_part[i].passings.end(), std::back_inserter(all));

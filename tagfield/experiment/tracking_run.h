@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Scenarios whose moving tags are tracked.
+/// Tracking of the moving tags of a scenario.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace tagfield {
 /// One seed, simulated and tracked.
 struct TrackingRun {
   std::uint64_t seed = 0;
-  std::vector<TagRead> reads;  ///< By track_in_parts() each tag's first and last alone.
+  std::vector<TagRead> reads;  ///< With track_in_parts() only each tag's first and last one.
   std::vector<AntennaPose> believed_poses;
   Truth truth;
   std::vector<TagTrack> tracks;
@@ -28,17 +28,17 @@ struct TrackingRun {
   std::vector<OrderOutcome> order_outcomes;
 };
 
-/// Tracks what was read and judges it by `truth`, which may be empty.
+/// Computes tracks from the reads and judges them by `truth`, which may be empty.
 void track(const TrackingSpec& spec, const KnownBeforehand& known, int threads, TrackingRun& run,
            Diagnostics& diagnostics);
 
-/// Of tags tracked in parts so many are kept with their tracks, and of a track so many errors.
+/// Maximum number of tracks kept of tags tracked in parts, and of errors kept per track.
 inline constexpr std::size_t kTracksKept = 1000;
 inline constexpr std::size_t kErrorsKept = 25;
 
-/// Tracks each part's tags as track() tracks them where there are no others, and judges them.
-/// `on_tracks` gets those of each part; `run` keeps the first kTracksKept, and outcomes of all,
-/// with every second, third, … error of a track. `on_progress` may be null.
+/// Tracks each part's tags as track() would without any others, and judges them. `on_tracks`
+/// receives the tracks of each part; `run` keeps the first kTracksKept of them, and the outcomes of
+/// all, with the errors thinned to at most kErrorsKept per track. `on_progress` may be null.
 void track_in_parts(const TrackingSpec& spec, const KnownBeforehand& known, int threads,
                     const ReadParts& parts,
                     const std::function<void(const std::vector<TagTrack>&)>& on_tracks,

@@ -32,7 +32,7 @@ std::optional<double> transmit_power_dbm(const AntennaParameters& antenna) {
 std::optional<PolarizationKind> polarization_of(const AntennaParameters& antenna) {
   const RadioModel* const radio = physical(antenna);
   if (radio == nullptr || !radio->effects.polarization || radio->X_AR) return std::nullopt;
-  // Of a wire the field is linear, whatever is said besides.
+  // A wire's field is linear, whatever else is set.
   if (radio->antenna.shape == PatternShape::kDipole) return PolarizationKind::kLinear;
   return radio->antenna.polarization;
 }

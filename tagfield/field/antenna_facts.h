@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What can be asked of an antenna, whether it is the paper's or a physical one.
+/// Properties of an antenna that are available for both the paper's model and physical ones.
 #pragma once
 
 #include <optional>
@@ -10,28 +10,29 @@
 
 namespace tagfield {
 
-/// Whether its waves meet what stands in the world.
+/// Whether its waves interact with objects in the world.
 bool meets_world(const AntennaParameters& antenna);
 
-/// How far it reads [m], as for a picture: the paper's range; of a physical one, which has none of
-/// its own, as far as free space and the usual tag allow.
+/// Its range for drawing [m]: the paper's range; for a physical model, which has no range
+/// parameter, the free-space range with the default tag.
 double nominal_range_m(const AntennaParameters& antenna);
 
-/// The carrier, of several the first [Hz].
+/// The carrier frequency, or the first of several [Hz].
 double nominal_frequency_hz(const AntennaParameters& antenna);
 
-/// What the model states of the phase [rad]: the paper's does, physical ones draw and measure.
+/// Phase parameters given by the model [rad]: the paper's model has them; physical ones draw and
+/// simulate them.
 struct StatedPhase {
   double offset_rad = 0.0;
   double noise_rad = 0.0;  ///< Standard deviation.
 };
 std::optional<StatedPhase> stated_phase(const AntennaParameters& antenna);
 
-/// At the reader's port; the paper's model knows no power.
+/// At the reader's port; the paper's model has no power.
 std::optional<double> transmit_power_dbm(const AntennaParameters& antenna);
 
-/// How waves are polarized to which replies owe their phases; none where that does nothing to them
-/// (the paper's model, without that effect) or several antennas have a part in it.
+/// Polarization of the waves that determine the replies' phases; nullopt if polarization has no
+/// effect on them (the paper's model, or the effect is off) or if several antennas are involved.
 std::optional<PolarizationKind> polarization_of(const AntennaParameters& antenna);
 
 }  // namespace tagfield

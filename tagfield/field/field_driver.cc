@@ -53,7 +53,8 @@ void FieldDriver::remove_tag(std::uint32_t number) {
   const std::size_t added = next_.added.size();
   forget(next_.added, number);
   forget(next_.moved, number);
-  // Within a step the field takes tags out before it puts others in, so a number is free at once.
+  // Within a step, the field removes tags before it adds others, so a number can be reused
+  // immediately.
   if (tag.is_told && next_.added.size() == added) next_.removed.push_back(number);
   tag = {};
   free_numbers_.push_back(number);

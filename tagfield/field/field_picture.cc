@@ -12,7 +12,7 @@ constexpr double kLeastAlpha = 0.25;
 }  // namespace
 
 ReadColor read_color(double share) {
-  // NaN clamps to NaN, so it is turned away first.
+  // NaN clamps to NaN, so it is handled first.
   const double s = share > 0.0 ? std::min(share, 1.0) : 0.0;
   const double red = std::max(0.0, 2.0 * s - 1.0);
   const double blue = std::max(0.0, 1.0 - 2.0 * s);
@@ -23,7 +23,7 @@ ReadColor silent_color() { return {0.5, 0.5, 0.5, kLeastAlpha}; }
 
 void FieldPicture::on_read(const TagRead& read) {
   SeenTag& tag = tags_[read.tag];
-  // Of two antennas at once the stronger read counts.
+  // Of simultaneous reads by two antennas, the stronger counts.
   const bool weaker = tag.read == read.stamp && tag.rssi_dbm > read.rssi_dbm;
   if (!weaker) {
     tag.read = read.stamp;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a person wants to see of a field: tags, antennas, and how strongly each tag was read last.
+/// A visualization of a field: tags, antennas, and how strongly each tag was last read.
 #pragma once
 
 #include <map>
@@ -19,28 +19,28 @@ struct ReadColor {
   double alpha = 1.0;
 };
 
-/// Colour of a read whose strength is `share` of the way from the weakest (0) to the strongest (1):
-/// blue over green to red, weaker more transparent. Clamped; never fully transparent.
+/// Colour of a read whose strength is at `share` between the weakest (0) and the strongest (1):
+/// from blue through green to red, weaker ones more transparent. Clamped; never fully transparent.
 ReadColor read_color(double share);
 
-/// Colour of a tag that was not read lately.
+/// Colour of a tag that was not read recently.
 ReadColor silent_color();
 
-/// An antenna as it was updated last.
+/// An antenna as of its last update.
 struct SeenAntenna {
   std::string frame_id;
   RigidTransform X_WA;
   double range_m = 0.0;
 };
 
-/// A tag where it is, as it was read last.
+/// A tag's position and last read.
 struct SeenTag {
   Eigen::Vector3d p_WT = Eigen::Vector3d::Zero();
   Time read = Time::min();
   double rssi_dbm = 0.0;
 };
 
-/// Gathers what it is told and hands out a picture at intervals of simulated time.
+/// Collects the state of the field and calls draw() at intervals of simulated time.
 class FieldPicture : public ReadListener, public TruthListener {
  public:
   explicit FieldPicture(Duration interval) : interval_(interval) {}

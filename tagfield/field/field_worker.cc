@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 64;
 
-/// CPU time of this thread [s]: wall time would count others' work on a busy machine.
+/// CPU time of this thread [s]; wall time would include others' work on a busy machine.
 double cpu_time_s() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -62,7 +62,7 @@ void FieldWorker::work() {
   guarded([this] { field_.finish(); });
 }
 
-/// Nothing that comes of reads may end the simulation.
+/// No error caused by reads may terminate the simulation.
 void FieldWorker::guarded(const std::function<void()>& task) const {
   try {
     task();

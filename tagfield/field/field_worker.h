@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Makes the reads on a thread of its own, so that a driver does not wait for them.
+/// Generates the reads on a separate thread, so that a driver doesn't wait for them.
 #pragma once
 
 #include <condition_variable>
@@ -15,34 +15,34 @@
 
 namespace tagfield {
 
-/// Where to say what is odd or went wrong; called on the worker's thread.
+/// Sinks for warnings and errors; called on the worker's thread.
 struct FieldConsole {
   std::function<void(const std::string&)> warn;
   std::function<void(const std::string&)> complain;
 };
 
-/// What was done so far.
+/// Statistics of the work so far.
 struct WorkDone {
   double busy_s = 0.0;  ///< CPU time of the thread.
   std::int64_t reads = 0;
 };
 
-/// Takes a field's steps in order. Reads don't act back on what moves, so they may come a little
-/// later in wall time; their stamps and values don't depend on it. Errors of a step or a listener
-/// are complained of, and the next step is taken.
+/// Processes a field's steps in order. Reads have no effect on what moves, so they may be generated
+/// with a delay in wall time; their stamps and values don't depend on it. If a step or a listener
+/// throws, the error is reported and the next step is processed.
 class FieldWorker {
  public:
   FieldWorker(Outlets outlets, FieldConsole console);
-  /// Finishes all steps that are waiting.
+  /// Finishes all queued steps.
   ~FieldWorker();
   FieldWorker(const FieldWorker&) = delete;
   FieldWorker& operator=(const FieldWorker&) = delete;
 
-  /// Hands over a step. Waits while too many are waiting already, so that a simulation that runs
-  /// faster than its reads can be made is held back and loses none.
+  /// Queues a step. Blocks while the queue is full, so that a simulation that runs faster than its
+  /// reads can be generated is slowed down, and no reads are lost.
   void post(FieldStep step);
 
-  /// Waits for all steps that are waiting; nothing may be posted afterwards.
+  /// Waits until all queued steps are finished; nothing may be posted afterwards.
   void finish();
 
   [[nodiscard]] WorkDone done() const;

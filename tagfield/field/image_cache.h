@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Images of places that stay where they are, kept from one read to the next.
+/// Image sources of positions at rest, kept from one read to the next.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,15 @@
 
 namespace tagfield {
 
-/// Images by number (a tag's slot). A place gets images when it is asked for a second time at the
-/// same point, so that those that move cost nothing; and only up to a number of bytes, so that
-/// crowds don't fill the memory. Not thread-safe.
+/// Image sources by number (a tag's slot). They are computed when they are requested for the second
+/// time at the same position, so that moving tags cost nothing; and only up to a number of bytes,
+/// so that large numbers of tags don't fill the memory. Not thread-safe.
 class ImageCache {
  public:
   explicit ImageCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// Images of the place for up to `options.order` mirrors; null where there are none to be had.
-  /// The pointer holds until the next call.
+  /// Images of the position for up to `options.order` reflections; null if they are not available.
+  /// The pointer is valid until the next call.
   const ImageSet* find(const RadioScene& scene, std::uint32_t number, const Eigen::Vector3d& p_W,
                        const TraceOptions& options);
   void forget(std::uint32_t number);
@@ -28,7 +28,7 @@ class ImageCache {
  private:
   struct Place {
     Eigen::Vector3d p_W;
-    int order = -1;  ///< That `images` were made for; none yet below 0.
+    int order = -1;  ///< Order of `images`; negative if there are none yet.
     ImageSet images;
   };
   void drop(Place& place);

@@ -17,12 +17,13 @@ const Gen2Reader* inventory_of(const AntennaParameters& antenna) {
   return &*radio->gen2;
 }
 
-/// A sequence of channels that takes longer never ends: sums of times stay within a Duration.
+/// A longer sequence of channels counts as infinite, so that sums of times stay within a Duration.
 constexpr double kLongestSequence_s = 1e9;
-/// For turns of very different lengths; four antennas whose turns are alike have four.
+/// Limits the number for turns of very different lengths; four antennas with equal turns have four
+/// starts.
 constexpr std::int64_t kMostStarts = 4096;
 
-/// How long the antenna's reader takes for all its channels; zero where it doesn't hop.
+/// Duration of the sequence of all channels of the antenna's reader; zero if it doesn't hop.
 Duration hop_sequence(const RadioModel& model) {
   const std::size_t channels = model.plan.carriers_hz.size();
   if (!model.effects.hopping || channels < 2) return Duration::zero();
@@ -36,7 +37,7 @@ void append(const AntennaParameters& antenna, PortCycle& cycle) {
   const Duration begin = cycle.turns.empty() ? Duration::zero() : cycle.turns.back().end;
   const double dwell_s = inventory_of(antenna)->port_dwell_s;
   cycle.turns.push_back({antenna.name, begin, begin + duration_from_seconds(dwell_s)});
-  // The longest sequence until settle() makes a time of restart of it.
+  // Holds the longest sequence until settle() converts it to the restart interval.
   cycle.restart = std::max(cycle.restart, hop_sequence(*physical(antenna)));
 }
 
@@ -50,16 +51,16 @@ Duration shortest_turn(const PortCycle& cycle) {
 
 std::int64_t rounded_up(Duration time, Duration unit) { return (time + unit - Duration(1)) / unit; }
 
-/// The binary digits of `number` behind the point and in reverse, in [0, 2³²): van der Corput's
-/// sequence.
+/// The binary digits of `number` reversed behind the binary point, scaled to [0, 2³²): van der
+/// Corput's sequence.
 std::uint32_t radical_inverse(std::uint32_t number) {
   std::uint32_t inverse = 0;
   for (int digit = 0; digit < 32; ++digit) inverse = inverse << 1 | ((number >> digit) & 1U);
   return inverse;
 }
 
-/// Starts the shortest turn apart, in an order in which the first few are far from each other:
-/// ports of turns that are alike swap channels as soon as they can.
+/// Start offsets at multiples of the shortest turn, in an order in which the first few are far
+/// apart: ports with equal turns swap channels as early as possible.
 std::vector<Duration> spread_starts(const PortCycle& cycle) {
   const Duration step = shortest_turn(cycle);
   const std::int64_t count = std::min(rounded_up(period(cycle), step), kMostStarts);
@@ -74,7 +75,7 @@ std::vector<Duration> spread_starts(const PortCycle& cycle) {
   return starts;
 }
 
-/// Makes the time of restart of the sequence of channels.
+/// Converts the sequence of channels to the restart interval.
 void settle(PortCycle& cycle) {
   const Duration sequence = cycle.restart;
   cycle.restart = Duration::zero();
@@ -83,10 +84,10 @@ void settle(PortCycle& cycle) {
   cycle.starts = spread_starts(cycle);
 }
 
-/// A time as a place in a cycle.
+/// The position of a time in a cycle.
 struct Place {
-  Duration within;      ///< How far into the cycle.
-  Duration to_restart;  ///< The most there is where turns never begin anew.
+  Duration within;      ///< Time since the start of the cycle.
+  Duration to_restart;  ///< Duration::max() if the cycle never restarts.
 };
 
 Duration rest_of(Duration time, Duration of) {
@@ -143,7 +144,7 @@ std::optional<Time> next_turn(const PortCycle& cycle, const std::string& antenna
   if (&turn_at(cycle, place) == &*turn) return time;
   const Duration wait = rest_of(turn->begin - place.within, period(cycle));
   if (wait < place.to_restart) return time + wait;
-  // From a restart on all have a turn before the next.
+  // After a restart, each antenna has a turn before the next restart.
   return next_turn(cycle, antenna, time + place.to_restart);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Whose turn it is among antennas that can't send at the same time.
+/// Which antenna transmits at which time, among antennas that can't transmit simultaneously.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace tagfield {
 
-/// Readers that send at the same time go on in pieces of this, so that what one does to a tag's
-/// memory is known to the other about then.
+/// Readers that transmit simultaneously are simulated in intervals of this length, so that the
+/// effect of one on a tag's memory becomes known to the other after at most about this time.
 inline constexpr Duration kReadersSideBySide = std::chrono::milliseconds(5);
 
 /// One antenna's turn within a cycle.
@@ -23,49 +23,50 @@ struct PortTurn {
   Duration end;
 };
 
-/// Antennas that take turns, over and over from the epoch on.
+/// Antennas that take turns, cyclically from the epoch on.
 struct PortCycle {
   std::vector<PortTurn> turns;
-  /// After each of these, from the epoch on, the cycle begins anew, at the next one of `starts`;
-  /// zero where it just goes on.
+  /// After each such interval, counted from the epoch, the cycle restarts at the next one of
+  /// `starts`; zero for no restarts.
   Duration restart = Duration::zero();
-  std::vector<Duration> starts;  ///< Within the cycle.
+  std::vector<Duration> starts;  ///< Offsets within the cycle.
 };
 
-/// Cycles of the antennas that take inventory, in the order given: those of one reader take turns
-/// for their port_dwell_s each, and those of all readers that share the air by time take them
+/// Cycles of the antennas that take inventory, in the given order: those of one reader take turns
+/// for their port_dwell_s each, and those of all readers that share the air by time take turns
 /// together. Antennas without an inventory have none.
 ///
-/// Where turns are shorter than a reader's sequence of channels, the cycle begins anew with each
-/// sequence (the longest of several readers'; as many sequences as a cycle needs), each time at
-/// another start: with another antenna where all turns are alike. Starts are the shortest turn
-/// apart, so each antenna comes to each channel within as many restarts as shortest turns fit into
-/// the cycle (up to 4,096). Without that it would meet some channels over and over, and others
-/// never, wherever the sequence is as long as a number of whole cycles.
+/// If turns are shorter than a reader's sequence of channels, the cycle restarts with each sequence
+/// (the longest one of several readers; a multiple of it if the cycle is longer), each time at
+/// another offset: with another antenna if all turns have equal length. Offsets are multiples of
+/// the shortest turn, so each antenna is on each channel at least once within as many restarts as
+/// the number of shortest turns in the cycle (up to 4,096). Without restarts, an antenna would use
+/// only some of the channels, always the same, whenever the sequence is a multiple of the cycle.
 std::vector<PortCycle> port_cycles(const std::vector<AntennaParameters>& antennas);
 
-/// Whose turn it is at `time`.
+/// The antenna whose turn it is at `time`.
 const std::string& antenna_on_turn(const PortCycle& cycle, Time time);
 
-/// When the antenna's next turn begins, or `time` while it has its turn; none where it has none.
+/// Start of the antenna's next turn, or `time` during its turn; nullopt if it has none.
 std::optional<Time> next_turn(const PortCycle& cycle, const std::string& antenna, Time time);
 
-/// When the first turn after `time` ends; none where nobody takes turns.
+/// End of the first turn that ends after `time`; nullopt if no antennas take turns.
 std::optional<Time> next_change(const std::vector<PortCycle>& cycles, Time time);
 
-/// An antenna that sends.
+/// An antenna that transmits.
 struct SendingAntenna {
-  std::size_t number = 0;   ///< Among those told.
-  double time_share = 1.0;  ///< Of its time.
+  std::size_t number = 0;   ///< Index into the given antennas.
+  double time_share = 1.0;  ///< Share of the time in which it transmits.
 };
 
-/// Those of `antennas` that send at `time` while `antenna` does, of other readers: whose turn it
-/// is, or each for an equal share of its reader's time where that takes no inventory.
+/// The antennas of other readers among `antennas` that transmit at `time` while `antenna` does:
+/// those whose turn it is, or, for a reader without an inventory, all of its antennas with equal
+/// shares of the time.
 std::vector<SendingAntenna> others_sending(const std::vector<AntennaParameters>& antennas,
                                            const AntennaParameters& antenna, Time time);
 
-/// Number of a reader among those of `antennas`, in the order in which they come: its turn in
-/// channel_at(). Their count where it is none of them.
+/// Index of a reader among those of `antennas`, in order of first appearance: its turn in
+/// channel_at(). The number of readers if it is not among them.
 std::size_t reader_number(const std::vector<AntennaParameters>& antennas,
                           const std::string& reader);
 

@@ -16,8 +16,8 @@
 namespace tagfield {
 namespace {
 
-/// Where `time` is between `before` (0) and `now` (1). Slots that began just before `before` are
-/// a little below 0.
+/// Relative position of `time` between `before` (0) and `now` (1). Slots that began just before
+/// `before` are slightly below 0.
 double share_at(Time time, Time before, Time now) {
   if (now <= before) return 1.0;
   return static_cast<double>((time - before).count()) / static_cast<double>((now - before).count());
@@ -29,51 +29,52 @@ double reach(const RadioModel& model, const TagPopulation& tags) {
   return most_m;
 }
 
-/// Of a tag that was not there.
+/// The position of a tag that didn't exist.
 Eigen::Vector3d nowhere() {
   return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Images of some thousand tags in a hall at order 2.
+/// Enough for the images of several thousand tags in a hall at order 2.
 constexpr std::size_t kMostImageBytes = std::size_t{512} << 20U;
 
-/// So few that their images are made sooner than an antenna's, update for update.
+/// With at most this many tags, computing their images once is cheaper than computing the antenna's
+/// at every update.
 constexpr std::size_t kFewTags = 64;
 
 bool takes_inventory(const RadioModel& model) { return model.gen2 && model.effects.inventory; }
 
 }  // namespace
 
-/// What is known of an antenna from one update to the next.
+/// The state of an antenna between updates.
 struct AirAntenna {
-  /// A tag that was read since the last update, and where it was.
+  /// A tag that was read since the last update, with its pose at the time.
   struct Pending {
     std::uint32_t slot;
     Time stamp;
     RigidTransform X_WT;
   };
-  /// What was found since antenna and tags have been where they are: as long as neither moves and
-  /// nothing else is in the way, no link changes but with the carrier.
+  /// Results since antenna and tags came to rest: as long as neither moves and there are no bodies
+  /// or other readers, links depend only on the carrier.
   struct AtRest {
     RigidTransform X_WA;
     std::uint64_t tags = 0;                           ///< TagPopulation::version().
-    bool is_known = false;                            ///< Of the last update.
+    bool is_known = false;                            ///< For the last update.
     std::map<double, std::vector<TagOnAir>> powered;  ///< By carrier.
     std::map<double, std::unordered_map<std::uint32_t, RadioLink>> read;  ///< By carrier and slot.
   };
   AntennaParameters parameters;
   RadioPort port;
   std::unique_ptr<Inventory> inventory;
-  std::optional<Time> updated;  ///< Last,
-  RigidTransform X_WA;          ///< when it was here.
+  std::optional<Time> updated;  ///< Last update,
+  RigidTransform X_WA;          ///< and the pose at that time.
   std::vector<Pending> pending;
   bool is_over = false;                    ///< It never updates again.
-  std::shared_ptr<const ImageSet> images;  ///< Made last; an antenna at rest needs no others.
+  std::shared_ptr<const ImageSet> images;  ///< Last computed; kept while at rest.
   std::shared_ptr<const ImageSet> receiver_images;
-  std::vector<WayMemory> memories;  ///< By slot, of those in range; none in empty space.
-  std::vector<WayMemory> receiver_memories;
-  std::optional<RigidTransform> X_WA_sending;  ///< As others see it; none before its first update.
-  double interference_mw = 0.0;                ///< Since the last update, in its tags' replies.
+  std::vector<PathCache> memories;  ///< By slot, for those in range; empty in empty space.
+  std::vector<PathCache> receiver_memories;
+  std::optional<RigidTransform> X_WA_sending;  ///< For other antennas; unset at first.
+  double interference_mw = 0.0;                ///< In its tags' replies, since the last update.
   AtRest at_rest;
 
   [[nodiscard]] const RadioModel& model() const { return *physical(parameters); }
@@ -95,7 +96,7 @@ RadioView bare_view_of(const AirAntenna& antenna, const RadioWorld& world,
                    antenna.port.seed);
 }
 
-/// `kept` if it is of this place, and is made anew otherwise.
+/// `kept` if it is for this position, otherwise recomputed.
 std::shared_ptr<const ImageSet> images_at(const RigidTransform& X, const RadioView& view,
                                           std::shared_ptr<const ImageSet>& kept) {
   if (!kept || kept->p_WA != X.translation) {
@@ -110,7 +111,7 @@ void add_images(AirAntenna& antenna, RadioView& view) {
   if (view.model.X_AR) view.receiver_images = images_at(view.X_WR, view, antenna.receiver_images);
 }
 
-/// For a memory of each of the slots where ways are traced.
+/// Ensures a cache for each of the slots if paths are traced.
 void make_room(const std::vector<std::uint32_t>& slots, const RadioView& view,
                AirAntenna& antenna) {
   if (slots.empty() || (!view.tracing.occlusion && view.tracing.order == 0)) return;
@@ -140,9 +141,9 @@ void for_each_straight_link(const std::vector<std::uint32_t>& slots, const TagPo
   }
 }
 
-/// Whether the antenna sends before its next update.
+/// Whether the antenna transmits before its next update.
 bool has_turn_soon(const AirAntenna& antenna, const std::vector<PortCycle>& cycles, Time now) {
-  // One and a half, as updates of a recording come when they come.
+  // One and a half intervals, because updates of a recording are irregular.
   const Duration interval = duration_from_seconds(1.5 / antenna.parameters.rate_hz);
   const std::string& name = antenna.parameters.name;
   return std::any_of(cycles.begin(), cycles.end(), [&](const PortCycle& cycle) {
@@ -163,7 +164,7 @@ RadioAir& RadioAir::operator=(RadioAir&&) noexcept = default;
 
 void RadioAir::set_world(std::shared_ptr<const RadioWorld> world) {
   world_ = std::move(world);
-  // Images are of the world that was.
+  // The images are those of the previous world.
   tag_images_ = ImageCache(kMostImageBytes);
   for (const auto& antenna : antennas_) {
     antenna->images.reset();
@@ -231,7 +232,7 @@ void RadioAir::remove(const std::string& name) {
   plan_turns();
 }
 
-/// Turns of ports, and each reader's number among all.
+/// Plans the turns of ports, and each reader's index among all.
 void RadioAir::plan_turns() {
   std::vector<AntennaParameters> all;
   for (const auto& antenna : antennas_) all.push_back(antenna->parameters);
@@ -261,7 +262,7 @@ void RadioAir::forget_tag(std::uint32_t slot) {
 
 void RadioAir::expect_no_more_of(const std::string& name) { antenna_named(name).is_over = true; }
 
-/// Before its first update nothing has power by an antenna.
+/// An antenna powers no tag before its first update.
 Time RadioAir::complete_until() const {
   Time until = Time::max();
   for (const auto& antenna : antennas_) {
@@ -320,7 +321,7 @@ void RadioAir::remember_places(Time now, const TagPopulation& tags) {
 RigidTransform RadioAir::tag_pose(std::uint32_t slot, Time stamp, const TagPopulation& tags) const {
   RigidTransform X_WT = tags.pose(slot);
   if (slot >= places_before_.size() || !places_before_[slot].allFinite()) return X_WT;
-  // Not by rounding errors off: whatever is at rest keeps its images.
+  // Exactly, without rounding errors, so that images of tags at rest are kept.
   if (places_before_[slot] == X_WT.translation) return X_WT;
   const double share = share_at(stamp, before_, *ran_to_);
   X_WT.translation = (1.0 - share) * places_before_[slot] + share * X_WT.translation;
@@ -345,7 +346,7 @@ void RadioAir::run_inventories(Time now, const TagPopulation& tags) {
   }
 }
 
-/// A stretch in which no port changes.
+/// Runs an interval in which no reader switches ports.
 void RadioAir::run_piece(Time begin, Time end, const TagPopulation& tags) {
   std::set<std::string> senders;
   for (const PortCycle& cycle : cycles_) senders.insert(antenna_on_turn(cycle, begin));
@@ -365,8 +366,8 @@ void RadioAir::run_piece(Time begin, Time end, const TagPopulation& tags) {
   }
 }
 
-/// Whether all that the antenna's links depend on, the carrier aside, is as it was at its last
-/// update. What was found before is forgotten otherwise.
+/// Whether everything that the antenna's links depend on, except the carrier, is unchanged since
+/// its last update. Otherwise clears the previous results.
 bool RadioAir::sees_the_same(AirAntenna& antenna, const RigidTransform& X_WA,
                              const TagPopulation& tags) {
   AirAntenna::AtRest& rest = antenna.at_rest;
@@ -421,8 +422,8 @@ void RadioAir::read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Tim
   antenna.pending.clear();
 }
 
-/// The tag's own images, where it is at rest and in the same solids as the antenna: one tag is then
-/// traced without all the antenna's images. Null otherwise.
+/// The tag's own images, if it is at rest and inside the same solids as the antenna: a single tag
+/// is then traced without computing all images of the antenna. Null otherwise.
 const ImageSet* RadioAir::tag_images(const RadioView& view, std::uint32_t slot,
                                      const RigidTransform& X_WT) {
   const ImageSet* const images =
@@ -434,8 +435,9 @@ const ImageSet* RadioAir::tag_images(const RadioView& view, std::uint32_t slot,
   return fits(view.X_WA) && (!view.model.X_AR || fits(view.X_WR)) ? images : nullptr;
 }
 
-/// The tag where it is now. Of few tags each has images of its own, which an antenna that moves
-/// would have to make anew for every update; of many the antenna's serve all.
+/// The tag at its current pose. If there are few tags, each has its own images, because a moving
+/// antenna would have to recompute its images at every update; if there are many, the antenna's
+/// images serve all.
 TagEnd RadioAir::tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopulation& tags,
                          RadioView& view) {
   TagEnd tag{tags.model(slot), tags.pose(slot), tags.key(slot)};
@@ -449,7 +451,8 @@ TagEnd RadioAir::tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopul
   return tag;
 }
 
-/// What couples with the tag, where its antenna asks for it, with all where they were at `stamp`.
+/// Adds the neighbours coupled with the tag, if its antenna simulates coupling, with all poses as
+/// of `stamp`.
 void RadioAir::surround(TagEnd& tag, std::uint32_t slot, Time stamp, const TagPopulation& tags,
                         AirAntenna& antenna, RadioView& view) {
   if (!couples_tags(antenna.model())) return;
@@ -467,7 +470,7 @@ void RadioAir::surround(TagEnd& tag, std::uint32_t slot, Time stamp, const TagPo
   if (!view.images) add_images(antenna, view);
 }
 
-/// Antennas of other readers that send now, where the antenna minds them.
+/// Antennas of other readers that transmit now, if the antenna simulates their interference.
 std::vector<OtherSender> RadioAir::others_of(AirAntenna& antenna, Time now) {
   std::vector<OtherSender> others;
   if (!is_disturbed(antenna.model())) return others;
@@ -486,7 +489,7 @@ std::vector<OtherSender> RadioAir::others_of(AirAntenna& antenna, Time now) {
   return others;
 }
 
-/// What the antenna hears of the others from now on.
+/// Computes the interference of the others at the antenna from now on.
 void RadioAir::look_at_others(AirAntenna& antenna, RadioView& view,
                               const std::vector<OtherSender>& others) {
   antenna.interference_mw = 0.0;
@@ -542,7 +545,7 @@ void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time no
   for_each_link(antenna, tags, view, read);
 }
 
-/// Into field_: who has power until the next update, on the carrier of now.
+/// Fills field_ with the tags that have power until the next update, on the current carrier.
 void RadioAir::find_powered(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                             const TagPopulation& tags) {
   const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
@@ -567,7 +570,7 @@ void RadioAir::find_powered(AirAntenna& antenna, const RigidTransform& X_WA, Tim
   if (antenna.at_rest.is_known) antenna.at_rest.powered[carrier.frequency_hz] = field_;
 }
 
-/// Who has power until the next update.
+/// Sets the tags that have power until the next update.
 void RadioAir::refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                              const TagPopulation& tags) {
   field_.clear();

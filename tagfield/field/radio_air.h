@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// All antennas of physical models, the air that they share, and what they read.
+/// All antennas with physical models, the air that they share, and their reads.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +24,10 @@ namespace tagfield {
 
 struct AirAntenna;
 
-/// Makes reads of what antennas say of themselves update by update. Without an inventory an antenna
-/// reads all that it hears, once an update. With one, slots go on between the updates: what was
-/// read since the last one comes out with the next, each read with a stamp of its own, the ends'
-/// places interpolated at that. Not thread-safe.
+/// Generates the reads of antennas update by update. Without an inventory, an antenna reads every
+/// tag within range once per update. With one, slots continue between updates: the reads since the
+/// last update are returned by the next one, each with its own stamp, with the poses of both ends
+/// interpolated to that time. Not thread-safe.
 class RadioAir {
  public:
   /// `world` must not be null.
@@ -36,33 +36,35 @@ class RadioAir {
   RadioAir(RadioAir&&) noexcept;
   RadioAir& operator=(RadioAir&&) noexcept;
 
-  /// From its next update on; it must be a physical one. Readers take their antennas' turns in
-  /// the order in which they came.
+  /// The antenna takes part from its next update on; it must be a physical one. Readers take turns
+  /// with their antennas in the order in which these were added.
   void add(const AntennaParameters& antenna, std::uint64_t seed);
-  /// Nothing where there is no such antenna.
+  /// No effect if there is no such antenna.
   void remove(const std::string& antenna);
-  /// The world is another one from now on; must not be null.
+  /// Replaces the world; must not be null.
   void set_world(std::shared_ptr<const RadioWorld> world);
-  /// What moves is here at `now`; to be told before the updates of that time.
+  /// Sets the moving bodies' poses at `now`; to be called before the updates of that time.
   void see(const std::vector<MovingBody>& bodies, Time now);
-  /// Before the slot is another tag's.
+  /// To be called before the slot is reused for another tag.
   void forget_tag(std::uint32_t slot);
 
-  /// The antenna is about to update at `X_WA`, as others that it disturbs shall know before their
-  /// own updates of that time. Nothing where that is not finite, or there is no such antenna.
+  /// Announces that the antenna is about to update at `X_WA`, which antennas that it interferes
+  /// with must know before their own updates of that time. No effect if the pose is not finite, or
+  /// if there is no such antenna.
   void expect(const std::string& antenna, const RigidTransform& X_WA);
-  /// The antenna is at `X_WA` at `now`, which must not go back: into `replies` (emptied first) what
-  /// it has read since its last update, in order of time. `tags` are where they are now. None, and
-  /// no update, where `X_WA` is not finite. Throws Error if the antenna is not there.
+  /// Updates the antenna at `X_WA` at `now`, which must not decrease: writes the reads since its
+  /// last update to `replies` (cleared first), in chronological order. `tags` are at their current
+  /// poses. No reads and no update if `X_WA` is not finite. Throws Error if there is no such
+  /// antenna.
   void update(const std::string& antenna, const RigidTransform& X_WA, Time now,
               const TagPopulation& tags, std::vector<TagReply>& replies);
 
-  /// The antenna never updates again, so nothing is waited for of it.
+  /// The antenna never updates again, so nothing waits for its reads.
   void expect_no_more_of(const std::string& antenna);
-  /// Up to then, no update to come yields a read that was made earlier.
+  /// No later update yields a read from before this time.
   [[nodiscard]] Time complete_until() const;
 
-  /// What the antenna's slots came to; none without an inventory.
+  /// Outcomes of the antenna's slots; nullopt without an inventory.
   [[nodiscard]] std::optional<InventoryCounts> counts(const std::string& antenna) const;
 
  private:
@@ -101,23 +103,23 @@ class RadioAir {
                     const TagPopulation& tags);
 
   std::shared_ptr<const RadioWorld> world_;
-  std::unique_ptr<TagMemories> memories_;  ///< Where inventories can go on pointing to it.
-  std::vector<std::unique_ptr<AirAntenna>> antennas_;  ///< As they came.
+  std::unique_ptr<TagMemories> memories_;              ///< Inventories keep pointers to it.
+  std::vector<std::unique_ptr<AirAntenna>> antennas_;  ///< In the order in which they were added.
   std::vector<PortCycle> cycles_;
-  Time before_{};                               ///< The last update but one at another time,
-  std::optional<Time> ran_to_;                  ///< and the last, as far as inventories have come.
-  std::vector<Eigen::Vector3d> places_before_;  ///< Where tags were, by slot; NaN where not known.
+  Time before_{};                               ///< Time of the last updates but one,
+  std::optional<Time> ran_to_;                  ///< and of the last; inventories have run up to it.
+  std::vector<Eigen::Vector3d> places_before_;  ///< By slot; NaN if unknown.
   std::vector<Eigen::Vector3d> places_;
-  /// What moves, at the last update but one at another time, and at the last.
+  /// The moving bodies at the last two times.
   std::vector<MovingBody> bodies_before_;
   std::vector<MovingBody> bodies_;
   Time bodies_seen_before_{};
   Time bodies_seen_{};
   ImageCache tag_images_;
-  TagCouplings couplings_;        ///< Of the last update's tags, where an antenna asks for it.
-  bool couplings_seen_ = false;   ///< In this update.
-  TagSurroundings around_;        ///< Of the link in work.
-  std::vector<RadioPath> paths_;  ///< Workspace, like these.
+  TagCouplings couplings_;        ///< Of the tags at the last update, if an antenna needs them.
+  bool couplings_seen_ = false;   ///< Already updated for this update.
+  TagSurroundings around_;        ///< For the link being computed.
+  std::vector<RadioPath> paths_;  ///< Workspace, as are the following.
   std::vector<std::uint32_t> slots_;
   std::vector<TagOnAir> field_;
   std::vector<Singulation> read_;

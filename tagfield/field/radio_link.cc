@@ -14,12 +14,12 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Vector3d;
 
-/// A one-way gain, and its logarithm's gradient with the antenna's place where it is of use.
-struct Gain : WayMemory::Gain {
+/// A one-way gain, and its gradient with respect to the antenna's position if needed.
+struct Gain : PathCache::Gain {
   void add(Complex of_path, const Vector3d& departure_W, double wave_number) {
     h += of_path;
     power += std::norm(of_path);
-    // A step along the departure shortens the path: e^{−jkd} turns forward.
+    // A step in the direction of departure shortens the path, so the phase of e^{−jkd} increases.
     gradient += Complex(0.0, wave_number) * of_path * departure_W;
   }
   void add(Complex share, const Gain& other) {
@@ -28,7 +28,7 @@ struct Gain : WayMemory::Gain {
   }
 };
 
-/// Evenly over the sphere.
+/// Uniform over the sphere.
 Vector3d any_direction(RandomStream& stream) {
   const double z = 2.0 * uniform(stream) - 1.0;
   const double around = kTwoPi * uniform(stream);
@@ -36,12 +36,12 @@ Vector3d any_direction(RandomStream& stream) {
   return {radius * std::cos(around), radius * std::sin(around), z};
 }
 
-/// Waves from everywhere, as many as it takes for a field that is nearly Gaussian.
+/// Waves from all directions; this number suffices for a nearly Gaussian field.
 constexpr int kDiffuseWaves = 24;
 
-/// A sum of plane waves with random directions and phases (Clarke's model in space): of one
-/// antenna and tag always the same, so that the field is a function of both ends' places and is
-/// forgotten over about half a wavelength.
+/// A sum of plane waves with random directions and phases (Clarke's model in 3D), always the same
+/// for an antenna and a tag, so that the field is a function of both ends' positions and
+/// decorrelates over about half a wavelength.
 void add_diffuse(const RadioView& view, const TagEnd& tag, const Vector3d& p_WA, Gain& gain) {
   const double k_factor = from_db(*view.model.diffuse_k_db);
   const double amplitude = std::sqrt(gain.power / (k_factor * kDiffuseWaves));
@@ -79,8 +79,8 @@ void add_diffracted(const RadioView& view, const RadioEnd& antenna, const RadioE
   }
 }
 
-/// Over the antenna's images, or the other way round over the tag's: gains are reciprocal.
-void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images, WayMemory* memory,
+/// Uses the antenna's images, or the tag's with antenna and tag exchanged: gains are reciprocal.
+void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images, PathCache* memory,
                const RadioEnd& antenna, const RadioEnd& at_tag, std::vector<RadioPath>& paths,
                Gain& gain) {
   const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
@@ -110,7 +110,7 @@ void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images,
 }
 
 Gain gain_alone(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
-                const TagEnd& tag, WayMemory* memory, std::vector<RadioPath>& paths) {
+                const TagEnd& tag, PathCache* memory, std::vector<RadioPath>& paths) {
   const RadioEnd antenna{view.model.antenna, X_WA};
   const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
   const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
@@ -137,12 +137,12 @@ bool is_same(const RigidTransform& one, const RigidTransform& other) {
   return one.translation == other.translation && one.rotation.coeffs() == other.rotation.coeffs();
 }
 
-/// More carriers' gains are not kept.
+/// Gains of further carriers are not cached.
 constexpr std::size_t kMostGains = 64;
 
-/// gain_alone(), or what it was where both ends have been at rest since and nothing moves.
+/// gain_alone(), or the cached gain if both ends have been at rest since and nothing moves.
 Gain gain_again(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
-                const TagEnd& tag, WayMemory* memory, std::vector<RadioPath>& paths) {
+                const TagEnd& tag, PathCache* memory, std::vector<RadioPath>& paths) {
   if (memory == nullptr || is_plain(view) || !view.bodies.empty()) {
     return gain_alone(view, X_WA, images, tag, memory, paths);
   }
@@ -157,7 +157,7 @@ Gain gain_again(const RadioView& view, const RigidTransform& X_WA, const ImageSe
     return gain_alone(view, X_WA, images, tag, memory, paths);
   }
   const double lambda_m = view.carrier.lambda_m;
-  for (const WayMemory::Gain& kept : memory->gains) {
+  for (const PathCache::Gain& kept : memory->gains) {
     if (kept.lambda_m == lambda_m) return {kept};
   }
   Gain gain = gain_alone(view, X_WA, images, tag, memory, paths);
@@ -166,9 +166,9 @@ Gain gain_again(const RadioView& view, const RigidTransform& X_WA, const ImageSe
   return gain;
 }
 
-/// The tag's neighbours lend it of what they take in.
+/// Adds the tag's neighbours' contributions from the fields that they receive.
 Gain gain_from(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
-               const TagEnd& tag, WayMemory* memory, std::vector<RadioPath>& paths) {
+               const TagEnd& tag, PathCache* memory, std::vector<RadioPath>& paths) {
   Gain alone = gain_again(view, X_WA, images, tag, memory, paths);
   if (tag.around == nullptr) return alone;
   Gain gain;
@@ -186,7 +186,7 @@ Vector3d slope_of(const Gain& gain) {
   return (gain.gradient / gain.h).imag();
 }
 
-/// Over all of the view's ways.
+/// Over all paths of the view.
 RadioLink traced_link(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths) {
   const RadioModel& model = view.model;
   const Gain forward = gain_from(view, view.X_WA, view.images.get(), tag, tag.memory, paths);
@@ -204,7 +204,7 @@ RadioLink traced_link(const RadioView& view, const TagEnd& tag, std::vector<Radi
   return link;
 }
 
-/// Of one of the two ways of tags of one kind, at most kStraightLinks of them.
+/// One direction of the links to at most kStraightLinks tags of one kind.
 void add_one_way(const RadioView& view, const RigidTransform& X_WA, std::span<const TagInView> tags,
                  StraightLinks& way) {
   const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
@@ -218,7 +218,7 @@ Vector3d slope_at(const StraightLinks& way, std::size_t i) {
   return {way.slope_W.x[i], way.slope_W.y[i], way.slope_W.z[i]};
 }
 
-/// traced_link() of up to kStraightLinks tags of one kind in empty space.
+/// traced_link() for up to kStraightLinks tags of one kind in empty space.
 void add_straight_links(const RadioView& view, std::span<const TagInView> tags,
                         std::span<RadioLink> links) {
   const RadioModel& model = view.model;
@@ -310,7 +310,7 @@ void straight_links_of(const RadioView& view, std::span<const TagInView> tags,
                        std::span<RadioLink> links) {
   std::size_t begin = 0;
   while (begin < tags.size()) {
-    // Those of one kind that follow one another.
+    // Consecutive tags of one kind.
     const std::size_t most = std::min(tags.size(), begin + kStraightLinks);
     std::size_t end = begin + 1;
     while (end < most && tags[end].model == tags[begin].model) ++end;
@@ -339,7 +339,7 @@ void links_of(const RadioView& view, std::span<const TagEnd> tags, std::vector<R
 
 Reply reply_of(const RadioLink& link, double phase_offset_rad, const Vector3d& v_AT_W) {
   const double phase = phase_offset_rad - std::arg(link.forward) - std::arg(link.backward);
-  // Positive for an antenna that comes nearer: the phase falls.
+  // Positive for an approaching antenna: the phase decreases.
   return {phase, link.reply_dbm, -link.phase_slope_W.dot(v_AT_W) / kTwoPi};
 }
 

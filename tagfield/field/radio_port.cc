@@ -7,18 +7,18 @@
 namespace tagfield {
 namespace {
 
-/// RN16 and the reply with the EPC must both come through.
+/// RN16 and the reply with the EPC must both be decoded.
 constexpr int kRn16Bits = 16;
-/// PC and CRC beside the EPC.
+/// PC and CRC in addition to the EPC.
 constexpr int kOverheadBits = 32;
 
-/// A phase in [0, 2π), of `key` and `number` for good.
+/// A phase in [0, 2π), a fixed function of `key` and `number`.
 double drawn_offset(std::uint64_t seed, std::uint64_t key, std::uint64_t number) {
   RandomStream stream(seed, Purpose::kHopping, key, number);
   return kTwoPi * uniform(stream);
 }
 
-/// Draws 0 of a reader's key are its hop order.
+/// Number 0 of a reader's key is used for its hop order.
 double offset_of_channel(const RadioPort& port, std::size_t channel) {
   return drawn_offset(port.seed, port.reader_key, 1 + channel);
 }
@@ -29,11 +29,11 @@ double offset_of_port(const RadioPort& port) {
 }
 
 bool has_half_turns(const RadioModel& model) {
-  // Without an inventory it is the reader's usual Miller replies that are meant.
+  // Without an inventory, the reader's usual Miller replies are assumed.
   return model.effects.half_turns && (!model.gen2 || model.gen2->link.encoding != Encoding::kFm0);
 }
 
-/// Without noise of its own a reader makes out what comes through more often than not.
+/// Without simulated noise, a reader decodes replies whose decode probability is at least one half.
 bool passes(const RadioModel& model, const RadioLink& link, const Disturbance& disturbance) {
   if (!(disturbance.in_replies_mw > 0.0)) return true;
   return sinr_db(model.hardware, link.reply_dbm, disturbance.in_replies_mw) >=
@@ -45,7 +45,7 @@ bool passes(const RadioModel& model, const RadioLink& link, const Disturbance& d
 CarrierNow carrier_at(const RadioModel& model, const RadioPort& port, Time time) {
   CarrierNow now;
   if (model.effects.hopping) {
-    // One order for all that share a plan, so that readers never meet on a channel.
+    // The same order for all readers that share a plan, so that they are never on the same channel.
     now.channel = channel_at(model.plan, time, stream_key(model.plan.name), port.seed, port.turn);
   }
   now.frequency_hz = model.plan.carriers_hz[now.channel];

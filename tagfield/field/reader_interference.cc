@@ -25,7 +25,7 @@ ReceivedSender received_from(const OtherSender& sender, const RadioView& view,
 double power_at_tag_mw(const OtherSender& sender, const TagEnd& tag,
                        std::vector<RadioPath>& paths) {
   TagEnd of_sender = tag;
-  of_sender.images = nullptr;  // They are of use to ends in the same solids alone.
+  of_sender.images = nullptr;  // They are only valid for ends inside the same solids.
   return sender.time_share * from_db(link_of(sender.view, of_sender, paths).tag_dbm);
 }
 

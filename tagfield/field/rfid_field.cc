@@ -11,7 +11,7 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/field/antenna_facts.h"
-#include "tagfield/field/internal/telling.h"
+#include "tagfield/field/internal/read_delivery.h"
 #include "tagfield/field/radio_air.h"
 #include "tagfield/field/tag_population.h"
 
@@ -45,9 +45,9 @@ class RfidField::Impl {
   Impl(Outlets outlets, std::shared_ptr<const RadioWorld> world);
 
   void step(const FieldStep& step);
-  void finish() { telling_.tell(Time::max()); }
+  void finish() { delivery_.tell(Time::max()); }
   std::vector<std::string> take_warnings();
-  [[nodiscard]] std::int64_t reads() const { return telling_.reads(); }
+  [[nodiscard]] std::int64_t reads() const { return delivery_.reads(); }
 
  private:
   struct Antenna {
@@ -68,20 +68,20 @@ class RfidField::Impl {
   void take_over(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp);
   void update(const AntennaDue& due, Time stamp);
 
-  Telling telling_;
+  ReadDelivery delivery_;
   TagPopulation tags_;             ///< Slots are the driver's numbers.
-  std::vector<Antenna> antennas_;  ///< As they came.
+  std::vector<Antenna> antennas_;  ///< In the order in which they were added.
   std::shared_ptr<const RadioWorld> world_;
   RadioAir air_;
   std::optional<Time> updated_;  ///< Stamp of the last step in which antennas were due.
   Diagnostics diagnostics_;
   std::size_t warnings_taken_ = 0;
   std::vector<std::uint32_t> moved_;  ///< Numbers; kept to save allocations.
-  std::vector<TagReply> replies_;     ///< Likewise.
+  std::vector<TagReply> replies_;     ///< Same.
 };
 
 RfidField::Impl::Impl(Outlets outlets, std::shared_ptr<const RadioWorld> world)
-    : telling_(std::move(outlets)),
+    : delivery_(std::move(outlets)),
       tags_(kCell),
       world_(empty_unless(std::move(world))),
       air_(world_) {}
@@ -90,7 +90,7 @@ void RfidField::Impl::add_antenna(const std::shared_ptr<const FieldAntenna>& ant
   const std::shared_ptr<const AntennaInfo> info = info_of(*antenna);
   antennas_.push_back({antenna, info});
   if (meets_world(antenna->parameters)) air_.add(antenna->parameters, antenna->seed);
-  for (const auto& listener : telling_.outlets().reads) listener->on_antenna_added(*info);
+  for (const auto& listener : delivery_.outlets().reads) listener->on_antenna_added(*info);
 }
 
 void RfidField::Impl::remove_antenna(const std::string& name) {
@@ -98,7 +98,7 @@ void RfidField::Impl::remove_antenna(const std::string& name) {
   antennas_.erase(std::remove_if(antennas_.begin(), antennas_.end(),
                                  [&](const Antenna& known) { return known.info->name == name; }),
                   antennas_.end());
-  for (const auto& listener : telling_.outlets().reads) listener->on_antenna_removed(name);
+  for (const auto& listener : delivery_.outlets().reads) listener->on_antenna_removed(name);
 }
 
 void RfidField::Impl::set_world(const FieldWorld& world) {
@@ -111,10 +111,10 @@ void RfidField::Impl::set_world(const FieldWorld& world) {
   air_.set_world(world_);
 }
 
-/// The air with the antennas that there are, which remember nothing.
+/// Resets the air with the current antennas, without any state.
 void RfidField::Impl::begin_anew() {
-  telling_.tell(Time::max());
-  for (const auto& listener : telling_.outlets().reads) listener->on_restart();
+  delivery_.tell(Time::max());
+  for (const auto& listener : delivery_.outlets().reads) listener->on_restart();
   air_ = RadioAir(world_);
   for (const Antenna& known : antennas_) {
     const FieldAntenna& antenna = *known.antenna;
@@ -134,7 +134,7 @@ void RfidField::Impl::require_tag(std::uint32_t number) const {
   if (!tags_.has(number)) throw Error(fmt::format("there is no tag of number {}", number));
 }
 
-/// What knows the antenna by its name; a driver may tell more of it than when it was added.
+/// The antenna's info, found by name; a driver may provide more information than when it was added.
 const std::shared_ptr<const AntennaInfo>& RfidField::Impl::info(
     const std::shared_ptr<const FieldAntenna>& antenna) {
   const std::string& name = antenna->parameters.name;
@@ -149,7 +149,7 @@ const std::shared_ptr<const AntennaInfo>& RfidField::Impl::info(
 
 void RfidField::Impl::remove(std::uint32_t number, Time stamp) {
   require_tag(number);
-  telling_.add_removed(stamp, tags_.id(number));
+  delivery_.add_removed(stamp, tags_.id(number));
   air_.forget_tag(number);
   tags_.remove(number);
 }
@@ -174,9 +174,9 @@ void RfidField::Impl::move(const std::vector<TagMoved>& moved) {
   }
 }
 
-/// Tags that came and rest, by their numbers; then those that moved, new ones among them.
+/// New tags at rest, by number; then those that moved, including new ones.
 void RfidField::Impl::tell_places(const FieldStep& step) {
-  if (telling_.outlets().truth.empty()) return;
+  if (delivery_.outlets().truth.empty()) return;
   std::map<std::uint32_t, const TagAdded*> fresh;
   for (const TagAdded& tag : step.added) fresh[tag.number] = &tag;
   std::map<std::uint32_t, const TagAdded*> at_rest = fresh;
@@ -185,30 +185,30 @@ void RfidField::Impl::tell_places(const FieldStep& step) {
     return TagPosition{since, tags_.id(number), tags_.position(number)};
   };
   for (const auto& [number, tag] : at_rest) {
-    telling_.add(step.stamp, place(number, tag->since), tag->label);
+    delivery_.add(step.stamp, place(number, tag->since), tag->label);
   }
   for (const std::uint32_t number : moved_) {
     const auto found = fresh.find(number);
     const bool is_new = found != fresh.end();
-    telling_.add(step.stamp, place(number, step.stamp),
-                 is_new ? std::optional(found->second->label) : std::nullopt);
+    delivery_.add(step.stamp, place(number, step.stamp),
+                  is_new ? std::optional(found->second->label) : std::nullopt);
   }
   if (!step.removed.empty() || !step.added.empty() || !moved_.empty()) {
-    telling_.add_placed(step.stamp);
+    delivery_.add_placed(step.stamp);
   }
-  for (const AntennaPose& robot : step.robots) telling_.add_robot(robot);
+  for (const AntennaPose& robot : step.robots) delivery_.add_robot(robot);
 }
 
-/// The replies that came of an antenna's update at `stamp`.
+/// Takes the replies of an antenna's update at `stamp`.
 void RfidField::Impl::take_over(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp) {
   const bool all_now = std::all_of(replies_.begin(), replies_.end(),
                                    [&](const TagReply& reply) { return reply.stamp == stamp; });
   if (all_now) {
-    telling_.add(antenna, stamp, tags_, replies_);
+    delivery_.add(antenna, stamp, tags_, replies_);
     return;
   }
   for (const TagReply& reply : replies_) {
-    telling_.add(to_read(antenna->parameters, tags_.id(reply.slot), reply), reply.distance_m);
+    delivery_.add(to_read(antenna->parameters, tags_.id(reply.slot), reply), reply.distance_m);
   }
 }
 
@@ -221,9 +221,9 @@ void RfidField::Impl::update(const AntennaDue& due, Time stamp) {
     if (due.is_last) air_.expect_no_more_of(parameters.name);
     take_over(due.antenna, stamp);
   } else {
-    telling_.add(due.antenna, stamp, tags_, due.X_WA.translation);
+    delivery_.add(due.antenna, stamp, tags_, due.X_WA.translation);
   }
-  telling_.add(antenna, stamp, due.X_WA, due.X_PA);
+  delivery_.add(antenna, stamp, due.X_WA, due.X_PA);
 }
 
 void RfidField::Impl::step(const FieldStep& step) {
@@ -243,7 +243,7 @@ void RfidField::Impl::step(const FieldStep& step) {
     if (meets_world(due.antenna->parameters)) air_.expect(due.antenna->parameters.name, due.X_WA);
   }
   for (const AntennaDue& due : step.due) update(due, step.stamp);
-  telling_.tell(std::min(step.stamp, air_.complete_until()));
+  delivery_.tell(std::min(step.stamp, air_.complete_until()));
 }
 
 RfidField::RfidField(Outlets outlets, std::shared_ptr<const RadioWorld> world)

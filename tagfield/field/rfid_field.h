@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A field of tags and antennas that a driver moves in steps: what the antennas read is told to
-/// whoever listens.
+/// A field of tags and antennas that a driver advances in steps; listeners receive the antennas'
+/// reads.
 #pragma once
 
 #include <cstdint>
@@ -22,25 +22,25 @@ namespace tagfield {
 struct MovingBody;
 struct TagModel;
 
-/// What belongs to one antenna as long as it lives.
+/// The properties of an antenna that don't change during its lifetime.
 struct FieldAntenna {
   AntennaParameters parameters;
   std::uint64_t seed = 1;
-  std::string sensor;        ///< Name of the sensor that it is; "" where there is none.
-  std::string name_space;    ///< Of its topics; "" for none.
-  std::string frame_id;      ///< Of the antenna.
-  std::string parent_frame;  ///< Of what its pose is told in; "" for the world.
-  bool is_fixed = false;     ///< It is at rest in the world.
+  std::string sensor;        ///< Name of its sensor; "" if there is none.
+  std::string name_space;    ///< Namespace of its topics; "" for none.
+  std::string frame_id;      ///< Frame of the antenna.
+  std::string parent_frame;  ///< Frame in which its pose is reported; "" for the world.
+  bool is_fixed = false;     ///< It doesn't move in the world.
 };
 
-/// A tag that appears under its driver's number, which is used again after the tag went.
+/// A tag that appears, with its driver's number, which is reused after the tag has disappeared.
 struct TagAdded {
   std::uint32_t number = 0;
   std::string id;     ///< Unique among the tags present.
-  std::string label;  ///< What the driver's world calls it; "" where it does not.
+  std::string label;  ///< Its name in the driver's world; "" if it has none.
   RigidTransform X_WT;
-  std::shared_ptr<const TagModel> model{};  ///< Its kind; default_tag_model() where it is null.
-  Time since{};                             ///< When it came; not after the step's stamp.
+  std::shared_ptr<const TagModel> model{};  ///< Its kind; null for default_tag_model().
+  Time since{};                             ///< When it appeared; not after the step's stamp.
 };
 
 struct TagMoved {
@@ -48,7 +48,7 @@ struct TagMoved {
   RigidTransform X_WT;
 };
 
-/// What stands in the driver's world, for antennas whose waves meet it.
+/// The objects in the driver's world, for antennas whose waves interact with them.
 struct FieldWorld {
   Scene scene;
   RadioWorldOptions materials;
@@ -58,12 +58,12 @@ struct FieldWorld {
 struct AntennaDue {
   std::shared_ptr<const FieldAntenna> antenna;
   RigidTransform X_WA;
-  std::optional<RigidTransform> X_PA;  ///< As it is told in its parent frame, where it is told.
+  std::optional<RigidTransform> X_PA;  ///< As reported in its parent frame, if it is reported.
   bool is_last = false;                ///< The antenna never updates again.
 };
 
-/// First antennas and tags go, then the world changes, then antennas and tags come, then tags move,
-/// and then antennas update.
+/// Applied in this order: antennas and tags are removed, the world changes, antennas and tags are
+/// added, tags move, antennas update.
 struct FieldStep {
   Time stamp;
   std::vector<std::uint32_t> removed;
@@ -72,37 +72,37 @@ struct FieldStep {
   std::vector<AntennaDue> due;
   std::vector<std::string> antennas_removed;  ///< Names.
   std::vector<std::shared_ptr<const FieldAntenna>> antennas_added;
-  std::vector<AntennaPose> robots;  ///< True poses, for those who are told the truth.
-  /// What moves and is in waves' way, where it is at the stamp; null for nothing.
+  std::vector<AntennaPose> robots;  ///< True poses, for TruthListeners.
+  /// Moving obstacles to waves, with their poses at the stamp; null for none.
   std::shared_ptr<const std::vector<MovingBody>> bodies;
-  std::shared_ptr<const FieldWorld> world;  ///< Null where it is the one before; at first empty.
+  std::shared_ptr<const FieldWorld> world;  ///< Null if unchanged; initially empty.
 };
 
 struct RadioWorld;
 
-/// Takes the steps of a driver, which may be a clock with robots, another simulator, or a
-/// recording. Antennas must be added before they update; when time goes back all begin anew. Not
-/// thread-safe.
+/// Processes the steps of a driver, which may be a clock with robots, another simulator, or a
+/// recording. Antennas must be added before they update; when time jumps back, everything starts
+/// anew. Not thread-safe.
 class RfidField {
  public:
-  /// `world`: as waves see it at first; empty space where it is null.
+  /// `world`: the initial world for wave propagation; null for empty space.
   explicit RfidField(Outlets outlets, std::shared_ptr<const RadioWorld> world = nullptr);
   ~RfidField();
   RfidField(RfidField&&) noexcept;
   RfidField& operator=(RfidField&&) noexcept;
 
-  /// Applies the step and tells the listeners. Poses that are not finite are left out: a tag stays
-  /// where it was, an antenna skips its update. Throws Error on a tag ID that is present already,
-  /// and on a tag's number or an antenna's name that is not.
+  /// Applies the step and notifies the listeners. Poses that are not finite are skipped: a tag
+  /// stays where it was, an antenna skips its update. Throws Error on a tag ID that is already
+  /// present, and on an unknown tag number or antenna name.
   void step(const FieldStep& step);
-  /// Tells what was kept back because something earlier could still have come.
+  /// Delivers reads held back because an earlier one could still have followed.
   void finish();
 
-  /// What was odd since the last call, each only once: guessed materials, a world that can't be
-  /// made ready for waves, which then stays the one before.
+  /// Warnings since the last call, without duplicates: guessed materials, a world that can't be
+  /// prepared for wave propagation, in which case the previous one is kept.
   std::vector<std::string> take_warnings();
 
-  /// Made so far.
+  /// Number of reads generated so far.
   [[nodiscard]] std::int64_t reads() const;
 
  private:

@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-/// As many carriers as most plans of few channels have.
+/// The number of carriers of most plans with few channels.
 constexpr std::size_t kMostKept = 4;
 
 bool is_wire(const TagAtPose& tag) {

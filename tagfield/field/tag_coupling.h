@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tags near one another: of the fields of a tag and its neighbours, what gets to its chip. See
-/// docs/coupling.md.
+/// Coupling of tags close to each other: how much of the fields of a tag and its neighbours reaches
+/// its chip. See docs/coupling.md.
 #pragma once
 
 #include <complex>
@@ -14,33 +14,33 @@
 
 namespace tagfield {
 
-/// A tag as its neighbours see it.
+/// A tag for the coupling with its neighbours.
 struct TagAtPose {
   const TagModel* model = nullptr;
   RigidTransform X_WT;
 };
 
-/// Shares (see coupled_shares()) of the first tag's and the others' fields in what the first one's
-/// chip gets. Each couples as a half-wave dipole along its polarization; those of circular
-/// polarization not at all.
+/// Weights (see coupled_shares()) of the fields at the first tag and at the others in the signal at
+/// the first one's chip. Each tag couples as a half-wave dipole along its polarization; circularly
+/// polarized ones don't couple.
 Eigen::RowVectorXcd shares_among(const std::vector<TagAtPose>& tags, double lambda_m);
 
-/// Up to how many neighbours couple with a tag: the nearest ones.
+/// Maximum number of neighbours that couple with a tag: the nearest ones.
 inline constexpr std::size_t kMostNeighbours = 24;
 
-/// A tag's neighbours nearer than a wavelength, by rising slots, and its own share.
+/// A tag's neighbours within a wavelength, in ascending order of slots, and its own weight.
 struct CoupledTag {
   std::complex<double> own = 1.0;
   std::vector<std::pair<std::uint32_t, std::complex<double>>> neighbours;
 };
 
-/// Who couples with whom, kept for as long as nobody nearby moves. Not thread-safe.
+/// The couplings between tags, cached as long as no tag nearby moves. Not thread-safe.
 class TagCouplings {
  public:
-  /// Where tags are now. Costs a comparison a tag; what was kept near those that came, went, moved
-  /// or turned is dropped.
+  /// Updates the tags' poses. Costs one comparison per tag; cached couplings near tags that
+  /// appeared, disappeared, moved or rotated are dropped.
   void see(const TagPopulation& tags);
-  /// Of the tag in `slot`, which was seen. Holds until the next call.
+  /// The couplings of the tag in `slot`, as of the last see(). Valid until the next call.
   const CoupledTag& of(std::uint32_t slot, double lambda_m);
 
  private:
@@ -51,7 +51,7 @@ class TagCouplings {
   struct Seen {
     bool present = false;
     TagAtPose tag;
-    std::vector<Kept> kept;  ///< Of the carriers asked for last.
+    std::vector<Kept> kept;  ///< For the last carriers requested.
   };
   void place(std::uint32_t slot, const TagAtPose& tag);
   void remove(std::uint32_t slot);

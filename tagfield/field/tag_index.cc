@@ -13,8 +13,8 @@
 namespace tagfield {
 namespace {
 
-/// The largest number whose root is at most `radius`: to compare with it is to compare the root,
-/// to the last bit, without one for each tag.
+/// The largest number whose square root is at most `radius`: comparing with it is equivalent to
+/// comparing the root, to the last bit, but saves a square root per tag.
 double largest_square(double radius) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double square = radius * radius;
@@ -37,12 +37,12 @@ TagIndex::TagIndex(double cell_m) : cell_m_(cell_m) {
 std::size_t TagIndex::CellHash::operator()(const Cell& cell) const {
   const auto x = static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.x));
   const auto y = static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.y));
-  // Fibonacci hashing of both halves spreads neighbours over the buckets.
+  // Fibonacci hashing of both halves distributes neighbouring cells over the buckets.
   return static_cast<std::size_t>(((x << 32U) | y) * 0x9e3779b97f4a7c15U >> 16U);
 }
 
 TagIndex::Cell TagIndex::cell_of(double x, double y) const {
-  constexpr double kMost = 1e9;  // Far cells merge; the distance test keeps them apart.
+  constexpr double kMost = 1e9;  // Distant cells merge; the distance test separates them.
   const auto place = [&](double coordinate) {
     return static_cast<std::int32_t>(std::clamp(std::floor(coordinate / cell_m_), -kMost, kMost));
   };
@@ -74,7 +74,7 @@ void TagIndex::remove(std::uint32_t slot) {
   present_[slot] = false;
 }
 
-/// Each slot is written, and counted where it is near: branches that follow distances are
+/// Each slot is written, but counted only if near: branches that depend on distances are
 /// mispredicted.
 void TagIndex::collect(const std::vector<std::uint32_t>& column, const Eigen::Vector3d& center,
                        double most_square, std::vector<std::uint32_t>& slots) const {
@@ -92,7 +92,8 @@ void TagIndex::within_all(const Eigen::Vector3d& center, double most_square,
   for (const auto& [cell, column] : columns_) collect(column, center, most_square, slots);
 }
 
-/// Many of all slots are sorted faster by ticking them off than by comparing them.
+/// If a large share of all slots is given, marking them in a bitmap is faster than a sort by
+/// comparisons.
 void TagIndex::sort(std::vector<std::uint32_t>& slots) const {
   constexpr std::size_t kFew = 16;
   if (slots.size() * kFew < present_.size()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Which tags are near an antenna, at a cost that does not grow with the tags elsewhere.
+/// Spatial index of the tags near an antenna, at a cost that does not grow with the number of tags
+/// elsewhere.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,24 +11,24 @@
 
 namespace tagfield {
 
-/// Points under slot numbers, in square columns of the world's x, y plane: halls are wider than
-/// they are high.
+/// Points by slot number, in square columns of the world's x, y plane, as halls are wider than they
+/// are high.
 class TagIndex {
  public:
-  /// `cell_m` > 0 is the columns' edge; half of the antennas' range serves well.
+  /// `cell_m` > 0 is the columns' edge length; half of the antennas' range is a good choice.
   explicit TagIndex(double cell_m);
 
-  /// Puts slot `slot` at `p_WT` [m], wherever it was before. Throws Error if not finite.
+  /// Puts slot `slot` at `p_WT` [m], whatever its previous position. Throws Error if not finite.
   void place(std::uint32_t slot, const Eigen::Vector3d& p_WT);
-  /// Takes the slot out; one that is not in is left alone.
+  /// Removes the slot; no effect if it is not in the index.
   void remove(std::uint32_t slot);
-  /// Position of a slot that is in.
+  /// Position of a slot that is in the index.
   [[nodiscard]] const Eigen::Vector3d& position(std::uint32_t slot) const {
     return positions_[slot];
   }
 
-  /// Slots no further than `radius` [m] from `center`, rising, into `slots` (emptied first).
-  /// None where `center` is not finite or `radius` negative or NaN.
+  /// Slots within `radius` [m] of `center`, in ascending order, into `slots` (cleared first). None
+  /// if `center` is not finite or `radius` negative or NaN.
   void within(const Eigen::Vector3d& center, double radius,
               std::vector<std::uint32_t>& slots) const;
 

@@ -38,7 +38,7 @@ void read_some(const AntennaParameters& antenna, std::uint64_t antenna_key,
       paper(antenna).sensitivity_dbm.value_or(-std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < count; ++i) {
     if (rssis_dbm[i] < least_dbm) continue;
-    // Member by member: a struct that is put together elsewhere first waits on its way here.
+    // Member by member, because copying a struct that was assembled elsewhere stalls here.
     TagReply& reply = replies.emplace_back();
     reply.slot = slots[i];
     reply.stamp = stamp;

@@ -21,13 +21,13 @@
 
 namespace tagfield {
 
-/// Tags under slot numbers: their IDs and where they are now.
+/// Tags by slot number: their IDs and current poses.
 class TagPopulation {
  public:
-  /// `cell_m` > 0 as in TagIndex: half of the antennas' range serves well.
+  /// `cell_m` > 0 as in TagIndex: half of the antennas' range is a good choice.
   explicit TagPopulation(double cell_m) : index_(cell_m), models_{default_tag_model()} {}
 
-  /// Adds a tag at `p_WT` [m] in a slot that its driver chose, best among the lowest that are free.
+  /// Adds a tag at `p_WT` [m] in a slot chosen by its driver, preferably the lowest free one.
   /// Throws Error if the slot or the ID is taken, or the position not finite.
   void add(std::uint32_t slot, const std::string& id, const Eigen::Vector3d& p_WT);
   /// Moves the tag in `slot`. Throws Error if the position is not finite.
@@ -35,14 +35,14 @@ class TagPopulation {
     index_.place(slot, p_WT);
     ++version_;
   }
-  /// Turns the tag in `slot`, which lies as the world does where it is not told.
+  /// Sets the orientation of the tag in `slot`, which is initially that of the world.
   void turn(std::uint32_t slot, const Eigen::Quaterniond& R_WT) {
     tags_[slot].R_WT = R_WT;
     ++version_;
   }
-  /// Says what kind of tag is in `slot`; default_tag_model() where it is not told.
+  /// Sets the kind of the tag in `slot`, initially default_tag_model().
   void set_model(std::uint32_t slot, std::shared_ptr<const TagModel> model);
-  /// Takes out the tag in `slot`, which must hold one.
+  /// Removes the tag in `slot`, which must contain one.
   void remove(std::uint32_t slot);
 
   [[nodiscard]] bool has(std::uint32_t slot) const {
@@ -59,7 +59,7 @@ class TagPopulation {
     return {rotation(slot), position(slot)};
   }
   [[nodiscard]] const TagModel& model(std::uint32_t slot) const { return *tags_[slot].model; }
-  /// All kinds of tags that were ever told of; the default one is the first.
+  /// All kinds of tags ever used; the default one is the first.
   [[nodiscard]] const std::vector<std::shared_ptr<const TagModel>>& models() const {
     return models_;
   }
@@ -67,9 +67,9 @@ class TagPopulation {
   [[nodiscard]] std::uint64_t key(std::uint32_t slot) const { return keys_[slot]; }
   [[nodiscard]] const TagIndex& index() const { return index_; }
   [[nodiscard]] std::size_t size() const { return ids_.size(); }
-  /// Grows with each change of any tag: while it stays, all are where and what they were.
+  /// Increases with each change of any tag: as long as it is unchanged, all tags are.
   [[nodiscard]] std::uint64_t version() const { return version_; }
-  /// Calls `visit(slot)` for each tag, in rising order of slots.
+  /// Calls `visit(slot)` for each tag, in ascending order of slots.
   template <class Visit>
   void for_each(const Visit& visit) const {
     for (std::uint32_t slot = 0; slot < tags_.size(); ++slot) {
@@ -88,30 +88,30 @@ class TagPopulation {
   TagIndex index_;
   std::vector<std::shared_ptr<const TagModel>> models_;
   std::vector<Tag> tags_;
-  std::vector<std::uint64_t> keys_;  ///< By slot, close together: each read needs one.
+  std::vector<std::uint64_t> keys_;  ///< By slot; contiguous, as each read needs one.
   std::unordered_set<std::string> ids_;
   std::uint64_t version_ = 0;
 };
 
-/// What an antenna sees of one tag: a TagRead without what all of an antenna have in common.
+/// An antenna's reply from one tag: a TagRead without the data common to all reads of an antenna.
 struct TagReply {
   std::uint32_t slot = 0;
   Time stamp;                 ///< When the tag answered.
   double frequency_hz = 0.0;  ///< Carrier.
   double phase_rad = 0.0;     ///< In [0, 2π).
-  double rssi_dbm = 0.0;      ///< A whole number by the paper's model.
-  double distance_m = 0.0;    ///< The truth behind it.
+  double rssi_dbm = 0.0;      ///< An integer in the paper's model.
+  double distance_m = 0.0;    ///< The true distance.
   std::optional<double> doppler_hz;
 };
 
 /// The reads of the antenna's update at `stamp` with the antenna at `p_WA` [m]: of all tags within
-/// perturbed_range(), in rising order of slots, some hundreds a call of `take`. Each is what
-/// read_tag() gives for that tag. None where `p_WA` is not finite.
+/// perturbed_range(), in ascending order of slots, a few hundred per call of `take`. Each equals
+/// the result of read_tag() for that tag. None if `p_WA` is not finite.
 void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,
                std::uint64_t seed, const TagPopulation& tags,
                const std::function<void(std::span<const TagReply>)>& take);
 
-/// The whole record of a reply.
+/// The complete record of a reply.
 TagRead to_read(const AntennaParameters& antenna, const std::string& tag, const TagReply& reply);
 
 }  // namespace tagfield

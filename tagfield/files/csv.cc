@@ -18,21 +18,21 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostRowBytes = 1'000'000;  // A row is kept until it is whole.
+constexpr std::size_t kMostRowBytes = 1'000'000;  // A row is buffered until it is complete.
 
-/// What libcsv's callbacks fill.
+/// State filled by libcsv's callbacks.
 struct Filling {
   CsvTable table;  ///< Without rows.
   const std::function<void(const CsvTable&)>& begin;
   const std::function<void(const CsvRow&)>& take;
   bool header = true;       ///< Whether the table has one.
-  int lines_seen = 0;       ///< Of which the last may go on in the next block.
-  bool in_line = false;     ///< Whether it does.
-  std::size_t unended = 0;  ///< Bytes of a row that has not come to its end.
-  CsvRow row;               ///< Its fields are used again and again.
-  std::size_t count = 0;    ///< Of them that are filled.
+  int lines_seen = 0;       ///< The last one may continue in the next block.
+  bool in_line = false;     ///< Whether it continues.
+  std::size_t unended = 0;  ///< Bytes of an incomplete row.
+  CsvRow row;               ///< Its fields are reused.
+  std::size_t count = 0;    ///< Number of filled fields.
   std::string problem;
-  std::exception_ptr thrown;  ///< By `begin` or `take`: not through libcsv, which is C.
+  std::exception_ptr thrown;  ///< By `begin` or `take`: kept out of libcsv, which is C.
 };
 
 void take_header(Filling& filling) {
@@ -83,7 +83,7 @@ void require_no_problem(const Filling& filling) {
   }
 }
 
-/// Parses line by line, so that a complaint knows its line.
+/// Parses line by line, so that error messages can state the line.
 void parse(std::string_view text, csv_parser& parser, Filling& filling) {
   if (text.find('\0') != std::string_view::npos) {
     fail({filling.table.file, 0}, "is not a text file");
@@ -113,7 +113,7 @@ void finish(csv_parser& parser, Filling& filling) {
   require_no_problem(filling);
 }
 
-/// Takes off a byte order mark, a spreadsheet's way to say UTF-8, wherever blocks begin.
+/// Removes a byte order mark, with which spreadsheets mark UTF-8, wherever block boundaries are.
 class WithoutMark {
  public:
   std::string_view operator()(std::string_view block) {
@@ -124,7 +124,7 @@ class WithoutMark {
     is_past_ = true;
     return std::string_view(begin_).substr(begin_.rfind(kMark, 0) == 0 ? kMark.size() : 0);
   }
-  /// What a file shorter than the mark holds.
+  /// Contents of a file that is shorter than the mark.
   [[nodiscard]] std::string_view rest() const { return is_past_ ? std::string_view() : begin_; }
 
  private:
@@ -234,7 +234,7 @@ CsvTable read_csv(const std::string& path, const CsvForm& form) {
 }
 
 std::string csv_field(std::string_view text) {
-  // Spaces at the ends of a bare field are dropped by many readers, this one among them.
+  // Many readers, including this one, drop leading and trailing spaces of an unquoted field.
   const auto is_space = [](char character) { return character == ' ' || character == '\t'; };
   const bool bare = text.find_first_of(",\"\r\n") == std::string_view::npos &&
                     (text.empty() || (!is_space(text.front()) && !is_space(text.back())));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tables as CSV files (RFC 4180, with a header line or without). Every complaint names file and
-/// line.
+/// Tables as CSV files (RFC 4180, with a header line or without). Every error message names file
+/// and line.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,16 +28,16 @@ struct CsvTable {
   std::vector<std::string> header;
   std::vector<CsvRow> rows;
 
-  /// Place of the column `name`. Throws Error with the columns there are.
+  /// Index of the column `name`. Throws Error, which lists the columns, if it is missing.
   [[nodiscard]] std::size_t column(std::string_view name) const;
   [[nodiscard]] bool has_column(std::string_view name) const;
   /// Finite number in a field; throws Error "FILE:LINE: …" on anything else.
   [[nodiscard]] double number(const CsvRow& row, std::size_t column) const;
-  /// The same of a length or a coordinate, in units of so many metres: [m], within ±1000 km.
+  /// Same, for a length or a coordinate in a unit of `metres`: [m], within ±1000 km.
   [[nodiscard]] double length(const CsvRow& row, std::size_t column, double metres = 1.0) const;
-  /// Places of the columns x_m, y_m, z_m.
+  /// Indices of the columns x_m, y_m, z_m.
   [[nodiscard]] std::array<std::size_t, 3> position_columns() const;
-  /// The three numbers of a place [m]; throws as length().
+  /// The three coordinates of a position [m]; throws as length().
   [[nodiscard]] Eigen::Vector3d position(const CsvRow& row,
                                          const std::array<std::size_t, 3>& columns) const;
   /// Stamp in a field, in seconds (see parse_stamp).
@@ -46,26 +46,26 @@ struct CsvTable {
   [[nodiscard]] const std::string& text(const CsvRow& row, std::size_t column) const;
 };
 
-/// What a table looks like.
+/// Format of a table.
 struct CsvForm {
   char delimiter = ',';
-  bool header = true;  ///< Else the columns are called "1", "2", …
+  bool header = true;  ///< If false, the columns are named "1", "2", …
 };
 
-/// Reads a table. Columns may stand in any order and there may be more of them than one asks for;
-/// blank lines are skipped. Throws Error if the file can't be read, is empty, is not text, or has a
-/// line with more or fewer fields than the header (or, without one, than the first line).
+/// Reads a table. Columns can be in any order, and there can be more than needed; blank lines are
+/// skipped. Throws Error if the file can't be read, is empty, is not text, or has a line with more
+/// or fewer fields than the header (or, without one, than the first line).
 CsvTable read_csv(const std::string& path, const CsvForm& form = {});
 
-/// The same, row by row, of files that don't fit in memory: `begin` gets the table without rows,
-/// `take` gets each row, whose fields are good until it returns. Rows before a bad line have been
-/// taken when it throws. `on_progress`, where given, gets the share of the file that is done now
-/// and then.
+/// Same, row by row, for files that don't fit in memory: `begin` receives the table without rows,
+/// `take` each row, whose fields are valid until it returns. When an error is thrown, the rows
+/// before the bad line have been passed. `on_progress`, if given, is called regularly with the
+/// share of the file that has been read.
 void read_csv_rows(const std::string& path, const std::function<void(const CsvTable&)>& begin,
                    const std::function<void(const CsvRow&)>& take, const CsvForm& form = {},
                    const std::function<void(double)>& on_progress = {});
 
-/// `text` as one field: quoted where it must be.
+/// `text` as one field, quoted if necessary.
 std::string csv_field(std::string_view text);
 
 }  // namespace tagfield

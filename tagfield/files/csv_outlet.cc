@@ -49,13 +49,13 @@ void CsvOutlet::on_read(const TagRead& read) {
 void CsvOutlet::on_update(const AntennaInfo& /*antenna*/, Time /*stamp*/) { begin_reads(); }
 
 void CsvOutlet::on_antenna_added(const AntennaInfo& antenna) {
-  if (has_begun_ && antenna.tells_doppler && !has_doppler_) {
+  if (has_begun_ && antenna.reports_doppler && !has_doppler_) {
     throw Error(
         fmt::format("reads.csv: antenna '{}' reports Doppler, but comes after reads that were "
                     "written without it",
                     antenna.name));
   }
-  has_doppler_ = has_doppler_ || antenna.tells_doppler;
+  has_doppler_ = has_doppler_ || antenna.reports_doppler;
 }
 
 void CsvOutlet::on_antenna_removed(const std::string& name) {

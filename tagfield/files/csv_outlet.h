@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A run as CSV files, written while it runs: memory does not grow with its length.
+/// A run as CSV files, written during the run: memory does not grow with its length.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace tagfield {
 
-/// Writes reads.csv, antenna_poses.csv and the truth's tables (docs/files.md) into a staged folder,
-/// which must outlive it. Errors are those of GrowingFile; besides, Error where an antenna that
-/// tells Doppler comes after reads of others were written without that column.
+/// Writes reads.csv, antenna_poses.csv and the truth's tables (docs/files.md) to a staged folder,
+/// which must outlive it. Throws Error as GrowingFile does, and if an antenna that reports Doppler
+/// appears after reads of others were written without that column.
 class CsvOutlet final : public ReadListener, public PoseListener, public TruthListener {
  public:
   explicit CsvOutlet(StagedFolder& folder);
@@ -38,8 +38,8 @@ class CsvOutlet final : public ReadListener, public PoseListener, public TruthLi
   std::shared_ptr<GrowingFile> robots_;
   std::shared_ptr<GrowingFile> tags_;
   std::shared_ptr<GrowingFile> distances_;
-  bool has_doppler_ = false;  ///< An antenna tells it.
-  bool has_begun_ = false;    ///< The header of reads.csv stands.
+  bool has_doppler_ = false;  ///< An antenna reports it.
+  bool has_begun_ = false;    ///< The header of reads.csv is written.
   FirstPoses told_;
   FirstPoses placed_;
 };

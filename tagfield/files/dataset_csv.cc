@@ -17,7 +17,7 @@
 namespace tagfield {
 namespace {
 
-/// What localization takes for an RSSI that was not reported [dBm].
+/// Interpreted by localization as an RSSI that was not reported [dBm].
 constexpr double kUnknownRssi = -200.0;
 
 /// Days from 1970-01-01 of a date of the Gregorian calendar: whole eras of 400 years, then days of
@@ -35,7 +35,7 @@ std::int64_t days_in(std::int64_t year, std::int64_t month) {
          days_of_date(year, month, 1);
 }
 
-/// A number of `digits` digits at `at` in `text`; none for anything else.
+/// A number of `digits` digits at `at` in `text`; none otherwise.
 std::optional<int> digits_at(const std::string& text, std::size_t at, std::size_t digits) {
   if (text.size() < at + digits) return std::nullopt;
   int value = 0;
@@ -46,7 +46,7 @@ std::optional<int> digits_at(const std::string& text, std::size_t at, std::size_
   return value;
 }
 
-/// Fraction of a second [ns] after the seconds ("", ".25", ".250000Z"); none for anything else.
+/// Fraction of a second [ns] after the seconds ("", ".25", ".250000Z"); none otherwise.
 std::optional<std::int64_t> nanoseconds_of(std::string rest) {
   if (!rest.empty() && rest.back() == 'Z') rest.pop_back();
   if (rest.empty()) return 0;
@@ -79,7 +79,7 @@ std::optional<Time> parse_iso(const std::string& text) {
   return Time(Duration(seconds * 1'000'000'000 + *fraction));
 }
 
-/// Places of columns in a table, found once; none for "".
+/// Index of a column in a table; none for "".
 std::optional<std::size_t> place_of(const CsvTable& table, const std::string& column) {
   if (column.empty()) return std::nullopt;
   return table.column(column);
@@ -131,7 +131,7 @@ struct AntennaReader {
   }
 };
 
-/// Reads places from rows.
+/// Reads positions from rows.
 struct PositionReader {
   const CsvTable& table;
   const PositionForm& form;
@@ -191,7 +191,7 @@ std::string without_spaces(std::string text) {
   return text;
 }
 
-/// Poses, each stamp and antenna once.
+/// Poses without duplicates of stamp and antenna.
 class PoseList {
  public:
   void add(Time stamp, const std::string& antenna, const Eigen::Vector3d& place) {
@@ -206,7 +206,7 @@ class PoseList {
   std::vector<AntennaPose> poses_;
 };
 
-/// A dataset under way, over its tables.
+/// A dataset while its tables are being read.
 struct Gathered {
   std::vector<TagRead> reads;
   PoseList poses;
@@ -238,13 +238,13 @@ void add_table(const std::string& path, const DatasetForm& form, Gathered& all) 
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Where the number that begins at `at` ends.
+/// End of the number that begins at `at`.
 std::size_t digits_end(const std::string& text, std::size_t at) {
   while (at < text.size() && is_digit(text[at])) ++at;
   return at;
 }
 
-/// Whether `a` comes before `b`, numbers in them by value: "9.csv" before "10.csv".
+/// Whether `a` sorts before `b`, comparing numbers in them by value: "9.csv" before "10.csv".
 bool in_natural_order(const std::string& a, const std::string& b) {
   std::size_t i = 0;
   std::size_t j = 0;

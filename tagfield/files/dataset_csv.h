@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads in the forms of other people's tables: which column is what, in which unit, and which way
-/// phases turn. docs/datasets.md.
+/// Reads in third-party tables: the columns' meanings and units, and the sign of the phase.
+/// docs/datasets.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,43 +17,43 @@
 
 namespace tagfield {
 
-/// How a table tells when.
+/// Format of the time.
 struct StampForm {
-  std::string column;          ///< "" where it tells no time.
-  double seconds = 1.0;        ///< One unit of the column [s].
-  bool iso = false;            ///< Dates as 2024-05-01T12:30:00.25, with or without a Z; UTC.
-  double rows_apart_s = 1e-3;  ///< Without a column: from row to row.
+  std::string column;          ///< "" if there is no time.
+  double seconds = 1.0;        ///< Unit of the column [s].
+  bool iso = false;            ///< Dates like 2024-05-01T12:30:00.25, with or without a Z; UTC.
+  double rows_apart_s = 1e-3;  ///< Without a column: interval between rows.
 };
 
-/// How a table names antennas.
+/// Format of antenna names.
 struct AntennaForm {
-  std::string column;  ///< "" where all are of one.
+  std::string column;  ///< "" if all reads are by one antenna.
   std::string name = "antenna";
 };
 
-/// How a table tells places.
+/// Format of positions.
 struct PositionForm {
-  std::array<std::string, 3> columns;  ///< Of x, y and z; that of z may be "".
-  double metres = 1.0;                 ///< One unit of the columns [m].
-  double z_m = 0.0;                    ///< Where there is no column of z.
+  std::array<std::string, 3> columns;  ///< For x, y and z; that of z may be "".
+  double metres = 1.0;                 ///< Unit of the columns [m].
+  double z_m = 0.0;                    ///< If there is no column for z.
 };
 
-/// How a table tells the carrier.
+/// Format of the carrier.
 struct FrequencyForm {
-  std::string column;               ///< "" where it is always `hertz`.
-  double hertz = 1.0;               ///< One unit of the column, or the carrier [Hz].
-  std::vector<double> channels_hz;  ///< Not empty: the column has the number of one of these,
-  int first_channel = 1;            ///< of which the first is this.
+  std::string column;               ///< "" if it is always `hertz`.
+  double hertz = 1.0;               ///< Unit of the column, or the carrier [Hz].
+  std::vector<double> channels_hz;  ///< If not empty, the column has the number of one of these,
+  int first_channel = 1;            ///< and this is the number of the first.
 };
 
-/// How a table tells the phase.
+/// Format of the phase.
 struct PhaseForm {
-  std::string column;    ///< "" where there is none; phases are then 0.
-  double radians = 1.0;  ///< One unit of the column [rad].
-  bool falls = false;    ///< It falls with distance.
+  std::string column;    ///< "" if there is none; phases are then 0.
+  double radians = 1.0;  ///< Unit of the column [rad].
+  bool falls = false;    ///< It decreases with distance.
 };
 
-/// A table of antenna poses by themselves.
+/// Format of a separate table of antenna poses.
 struct PoseTableForm {
   CsvForm csv;
   StampForm stamp;
@@ -61,30 +61,30 @@ struct PoseTableForm {
   PositionForm position;
 };
 
-/// A table of reads.
+/// Format of a table of reads.
 struct DatasetForm {
   CsvForm csv;
   StampForm stamp;
-  std::string tag_column;  ///< Spaces within an EPC are left out.
+  std::string tag_column;  ///< Spaces within an EPC are removed.
   AntennaForm antenna;
   PhaseForm phase;
-  std::string rssi_column;  ///< "" where there is none: then it is −200 dBm, which stands for that.
-  double decibels = 1.0;    ///< One unit of the RSSI [dB].
+  std::string rssi_column;  ///< "" if there is none: RSSI is then −200 dBm, as missing.
+  double decibels = 1.0;    ///< Unit of the RSSI [dB].
   FrequencyForm frequency;
   std::optional<PositionForm> position;             ///< Of the antenna, in the rows of its reads.
-  std::optional<PoseTableForm> poses;               ///< Of a table beside.
-  std::map<std::string, Eigen::Vector3d> antennas;  ///< Places of antennas that stood [m].
+  std::optional<PoseTableForm> poses;               ///< Of a separate table.
+  std::map<std::string, Eigen::Vector3d> antennas;  ///< Positions of antennas at rest [m].
 };
 
-/// What a dataset has.
+/// Contents of a dataset.
 struct Dataset {
   std::vector<TagRead> reads;
-  std::vector<AntennaPose> poses;  ///< One a stamp and antenna, without turning.
+  std::vector<AntennaPose> poses;  ///< One per stamp and antenna, without rotation.
 };
 
-/// Reads a table of reads, with the antennas' places where it has any; or all tables (*.csv) of a
-/// folder, one after the other in the order of their names, in which numbers go by value. Throws
-/// Error "FILE:LINE: …".
+/// Reads a table of reads, with the antennas' positions if it has any; or all tables (*.csv) of a
+/// folder, one after the other in the order of their names, in which numbers are sorted by value.
+/// Throws Error "FILE:LINE: …".
 Dataset read_dataset_csv(const std::string& path, const DatasetForm& form);
 
 /// Reads a table of antenna poses. Throws Error "FILE:LINE: …".

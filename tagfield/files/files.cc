@@ -26,7 +26,7 @@ namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
-/// An open file, closed at the end.
+/// An open file, closed on destruction.
 class Opened {
  public:
   explicit Opened(const std::string& path) : file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
@@ -45,7 +45,7 @@ class Opened {
   fail({path, 0}, fmt::format("can't be read: {}", std::strerror(errno)));
 }
 
-/// Gives the size that it says it has; that of a pipe is 0.
+/// Returns the file's stated size; that of a pipe is 0.
 std::size_t require_file(int file, const std::string& path) {
   struct stat status {};
   if (::fstat(file, &status) != 0) fail_to_read(path);
@@ -63,7 +63,7 @@ Opened opened(const std::string& path) {
   return file;
 }
 
-/// All that follows, to its end.
+/// Reads the rest of the file to its end.
 void read_all(int file, const std::string& path,
               const std::function<void(std::string_view)>& take) {
   std::array<char, 1U << 16U> bytes;
@@ -78,14 +78,14 @@ void read_all(int file, const std::string& path,
   }
 }
 
-/// Whether `path` is there and neither a file nor a folder, such as /dev/stdout.
+/// Whether `path` exists and is neither a file nor a folder, such as /dev/stdout.
 bool is_special(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-/// Where a file is to be replaced: what a symbolic link points to.
+/// The file to be replaced: for a symbolic link, its target.
 fs::path target_of(const std::string& path) {
   std::error_code error;
   const fs::path target = fs::is_symlink(path, error) ? fs::canonical(path, error) : fs::path(path);
@@ -98,7 +98,8 @@ fs::path beside(const fs::path& target) {
   return fmt::format("{}.{}{}", target.string(), getpid(), kPartial);
 }
 
-/// The process that gave a file beside `target` its name; 0 where it is none of those.
+/// The process that created a temporary file beside `target`, by its name; 0 if it is not such a
+/// file.
 pid_t writer_of(const fs::path& path, const fs::path& target) {
   const std::string start = target.filename().string() + ".";
   const std::string name = path.filename().string();
@@ -111,8 +112,9 @@ pid_t writer_of(const fs::path& path, const fs::path& target) {
   return error == std::errc{} && is_whole ? pid : 0;
 }
 
-/// Files of programs that were killed while they wrote this one: those are no more, and nobody has
-/// a lock on it, as one of another machine or container would.
+/// Deletes temporary files of programs that were killed while writing this file: the process no
+/// longer exists, and the file is not locked, as it would be by one of another machine or
+/// container.
 void remove_abandoned_partials(const fs::path& target) {
   std::error_code error;
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
@@ -126,7 +128,7 @@ void remove_abandoned_partials(const fs::path& target) {
   }
 }
 
-/// A file that is written beside its place, until it is moved there.
+/// A temporary file beside its target, until it is renamed.
 struct Partial {
   fs::path path;
   fs::path target;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What is in a folder.
+/// Entries of a folder.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace tagfield {
 
-/// Paths of all that is in a folder itself, sorted; nothing where there is no folder. Throws Error
-/// where it can't be looked through, which is not the same.
+/// Sorted paths of all direct entries of a folder; empty if there is no folder. Throws Error if it
+/// can't be read, which is not the same.
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
 
 }  // namespace tagfield

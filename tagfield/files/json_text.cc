@@ -9,8 +9,8 @@
 namespace tagfield {
 namespace {
 
-/// How many bytes the character has that `text` begins with; 0 where it is no UTF-8: Unicode
-/// Standard, table 3-7.
+/// Number of bytes of the first character of `text`; 0 if it is not valid UTF-8: Unicode Standard,
+/// table 3-7.
 std::size_t character_length(std::string_view text) {
   const auto byte = [text](std::size_t i) {
     return i < text.size() ? static_cast<std::uint8_t>(text[i]) : std::uint8_t{0};

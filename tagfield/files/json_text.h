@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Text as JSON has it.
+/// Text as JSON strings.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace tagfield {
 
-/// `text` in quotes at the end of `json`. What is no UTF-8 becomes U+FFFD, so that the whole is
-/// JSON whatever the text.
+/// Appends `text` in quotes to `json`. Invalid UTF-8 becomes U+FFFD, so that the result is valid
+/// JSON for any text.
 void append_quoted(std::string_view text, std::string& json);
 
-/// The same by itself.
+/// Same, as a new string.
 std::string json_string(std::string_view text);
 
 }  // namespace tagfield

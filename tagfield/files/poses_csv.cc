@@ -25,7 +25,7 @@ Eigen::Quaterniond quaternion_of(const CsvTable& table, const CsvRow& row,
   return *unit;
 }
 
-/// Of x, y and yaw, row by row; the rest follows by symmetry.
+/// Covariance of x, y and yaw, row by row; the rest follows by symmetry.
 constexpr std::array<const char*, 6> kCovariance = {"cov_xx", "cov_xy",   "cov_xyaw",
                                                     "cov_yy", "cov_yyaw", "cov_yawyaw"};
 constexpr std::array<std::array<int, 2>, 6> kPlaces = {
@@ -39,7 +39,7 @@ std::optional<std::array<std::size_t, 6>> covariance_columns(const CsvTable& tab
   return columns;
 }
 
-/// None where the row leaves all six empty.
+/// None if all six are empty in the row.
 std::optional<Eigen::Matrix3d> covariance_of(const CsvTable& table, const CsvRow& row,
                                              const std::array<std::size_t, 6>& columns) {
   if (row.fields[columns[0]].empty()) return std::nullopt;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads as JSON, a line each, with the names that readers give them which stream over HTTP and
-/// MQTT by themselves.
+/// Reads as JSON, one per line, with the key names of readers that stream over HTTP and MQTT
+/// themselves.
 #pragma once
 
 #include <map>
@@ -12,11 +12,11 @@
 
 namespace tagfield {
 
-/// Numbers of antennas at their readers, from 1 on, in the order in which they were first asked
-/// for.
+/// Port numbers of antennas at their readers, from 1 on, in the order in which they are first
+/// requested.
 class AntennaPorts {
  public:
-  /// As it was told, or else the next of the reader's.
+  /// The port as set, or else the reader's next one.
   int port_of(const std::string& reader, const std::string& antenna);
   void set(const std::string& reader, const std::string& antenna, int port);
 
@@ -25,14 +25,14 @@ class AntennaPorts {
   std::map<std::string, int> counts_;
 };
 
-/// The read at the end of `json`, without a line's end:
+/// Appends the read to `json`, without a line end:
 /// - `timestamp`: `start`, since 1970, plus its stamp, in UTC with nine decimals;
 /// - `reader`, `antennaPort` (1, 2, …), `antennaName`;
-/// - `epc`: the tag's ID as it is, and where it has bits `epcHex`, in upper case;
-/// - `peakRssiCdbm` [dBm/100], `phaseAngle` [deg], `frequency` [kHz], and `dopplerHz` where told.
+/// - `epc`: the tag's ID as it is, and, if it has a binary form, `epcHex`, in upper case;
+/// - `peakRssiCdbm` [dBm/100], `phaseAngle` [deg], `frequency` [kHz], and `dopplerHz` if reported.
 void append_json(const TagRead& read, Time start, AntennaPorts& ports, std::string& json);
 
-/// The same by itself, with a line's end.
+/// Same, as a new string with a line end.
 std::string read_to_json_line(const TagRead& read, Time start, AntennaPorts& ports);
 
 }  // namespace tagfield

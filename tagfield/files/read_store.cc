@@ -23,7 +23,7 @@ constexpr std::size_t kRecordsInMemory = 256;
                                          what, std::strerror(errno)));
 }
 
-/// A file that only this program sees.
+/// A file without a name, visible only to this program.
 int unnamed_file(const std::filesystem::path& folder) {
   std::string name = (folder / ".tagfield-reads-XXXXXX").string();
   const int file = ::mkostemp(name.data(), O_CLOEXEC);
@@ -51,7 +51,7 @@ struct ReadStore::PartFile {
   std::vector<Record> recent;
 };
 
-/// Texts as numbers, and back.
+/// Mapping of names to numbers and back.
 class ReadStore::Names {
  public:
   std::uint32_t number(const std::string& name) {

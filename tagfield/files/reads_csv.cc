@@ -17,7 +17,7 @@ namespace {
 
 struct ReadColumns {
   std::size_t stamp = 0, antenna = 0, tag = 0, frequency = 0, rssi = 0;
-  std::optional<std::size_t> reader, phase, doppler;  ///< Those that may be missing.
+  std::optional<std::size_t> reader, phase, doppler;  ///< Optional columns.
 };
 
 ReadColumns columns_of(const CsvTable& table) {
@@ -32,7 +32,7 @@ ReadColumns columns_of(const CsvTable& table) {
                       {},
                       {},
                       if_there("doppler_hz")};
-  // Phases may be missing, not called otherwise.
+  // Phases may be missing, but not under another name.
   const bool has_phase =
       std::any_of(table.header.begin(), table.header.end(),
                   [](const std::string& name) { return name.find("phase") != std::string::npos; });
@@ -54,8 +54,8 @@ TagRead read_in(const CsvTable& table, const ReadColumns& columns, const CsvRow&
   }
   if (columns.phase) read.phase_rad = wrap_to_two_pi(table.number(row, *columns.phase));
   read.rssi_dbm = table.number(row, columns.rssi);
-  const bool tells_doppler = columns.doppler && !row.fields[*columns.doppler].empty();
-  if (tells_doppler) read.doppler_hz = table.number(row, *columns.doppler);
+  const bool reports_doppler = columns.doppler && !row.fields[*columns.doppler].empty();
+  if (reports_doppler) read.doppler_hz = table.number(row, *columns.doppler);
   return read;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tag reads as CSV: `stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm`, and
-/// `doppler_hz` where a read tells it.
+/// Tag reads as CSV: `stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm`, and `doppler_hz`
+/// if a read reports it.
 #pragma once
 
 #include <functional>
@@ -12,23 +12,23 @@
 
 namespace tagfield {
 
-/// The header line, and a read's line at the end of `text`: with the column doppler_hz, or without
-/// where no read tells it.
+/// The header line, and appending of a read's line to `text`: with the column doppler_hz, or
+/// without it if no read reports it.
 std::string reads_header(bool has_doppler);
 void append_row(const TagRead& read, bool has_doppler, std::string& text);
 
-/// Text of the table, a row a read in the order given. Stamps are exact, phase has six decimals.
+/// Text of the table, a row per read in the given order. Stamps are exact, phase has six decimals.
 std::string reads_to_csv(const std::vector<TagRead>& reads);
 
-/// Reads the table from a file, a simulated or a real reader's. A phase outside [0, 2π) is
-/// wrapped. `reader` may be missing. Throws Error "FILE:LINE: …" on a missing column, text where a
-/// number belongs, a frequency that is not positive. `on_progress`, where given, gets the share of
-/// the file that is done now and then.
+/// Reads the table of a simulated or a real reader from a file. A phase outside [0, 2π) is wrapped.
+/// `reader` may be missing. Throws Error "FILE:LINE: …" on a missing column, text instead of a
+/// number, a frequency that is not positive. `on_progress`, if given, is called regularly with the
+/// share of the file that has been read.
 std::vector<TagRead> read_reads_csv(const std::string& path,
                                     const std::function<void(double)>& on_progress = {});
 
-/// The same read by read, of tables that don't fit in memory. Reads before a bad line have been
-/// taken when it throws.
+/// Same, read by read, for tables that don't fit in memory. When an error is thrown, the reads
+/// before the bad line have been passed.
 void for_each_read(const std::string& path, const std::function<void(TagRead)>& take,
                    const std::function<void(double)>& on_progress = {});
 

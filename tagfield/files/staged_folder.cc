@@ -45,7 +45,7 @@ using files_internal::write_through;
 constexpr const char* kCommitting = ".tagfield-commit";
 constexpr const char* kIncomplete = "incomplete-";
 
-/// Throws Error unless each part of the way to `name` is a folder or not there yet.
+/// Throws Error unless each parent folder of `name` is a folder or does not exist yet.
 void require_way(const fs::path& folder, const fs::path& name) {
   fs::path way = folder;
   for (const fs::path& part : name.parent_path()) {
@@ -70,8 +70,8 @@ void remove_with_empty_parents(const fs::path& folder, const fs::path& name) {
   }
 }
 
-/// From here on nothing can go back: all that is in `.tagfield-commit` comes to its place. May be
-/// cut off anywhere and done again.
+/// Past the point of no return: moves everything in `.tagfield-commit` to its final path. Can be
+/// interrupted anywhere and repeated.
 void roll_forward(const fs::path& folder) {
   const fs::path committing = folder / kCommitting;
   std::error_code error;
@@ -94,22 +94,22 @@ void roll_forward(const fs::path& folder) {
   if (files_below(committing).empty()) fs::remove_all(committing, error);
 }
 
-/// Where it can't be in one step: a program that is killed within it leaves the rest to others.
+/// Commits non-atomically: if the program is killed meanwhile, others complete the commit.
 void move_in(const fs::path& folder, const fs::path& staging) {
   rename_over(staging, folder / kCommitting);
   sync_folder(folder);
   roll_forward(folder);
 }
 
-/// Whether a folder is called as those of make_staging().
+/// Whether a folder has a name as given by make_staging().
 bool is_staging(const std::string& name) {
   const std::size_t start = std::string_view(kIncomplete).size();
   return name.rfind(kIncomplete, 0) == 0 && name.size() > start &&
          name.find_first_not_of("0123456789.", start) == std::string::npos;
 }
 
-/// What runs left that were killed: nobody holds the lock on it any more. Those that had not come
-/// to write their list are empty; a folder of that name with something in it is somebody else's.
+/// Deletes leftovers of killed runs: nobody holds their lock any more. Those that had not written
+/// their list yet are empty; a folder of that name with other contents belongs to someone else.
 void remove_abandoned(const fs::path& folder) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -123,7 +123,7 @@ void remove_abandoned(const fs::path& folder) {
   }
 }
 
-/// Makes `incomplete-PID`, or `incomplete-PID.2` where an earlier program left one.
+/// Creates `incomplete-PID`, or `incomplete-PID.2` if an earlier program left the former.
 fs::path make_staging(const fs::path& folder) {
   for (int attempt = 1; attempt < 1000; ++attempt) {
     fs::path staging = folder / fmt::format("{}{}{}", kIncomplete, getpid(),
@@ -142,14 +142,14 @@ GrowingFile::GrowingFile(const fs::path& path, fs::path named)
       file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
   if (file_ < 0)
     fail({named_.string(), 0}, fmt::format("can't be written: {}", std::strerror(errno)));
-  // So that others see that somebody still writes to it.
+  // Shows others that it is still being written.
   (void)::flock(file_, LOCK_SH | LOCK_NB);
 }
 
 GrowingFile::~GrowingFile() {
   try {
     flush();
-  } catch (const std::exception&) {  // Told where it mattered: by sync() or commit().
+  } catch (const std::exception&) {  // Already reported by sync() or commit().
     text_.clear();
   }
   ::close(file_);
@@ -172,7 +172,7 @@ void GrowingFile::flush() {
 
 void GrowingFile::finish() {
   flush();
-  // Pipes and some file systems can't (EINVAL), and need not.
+  // Pipes and some file systems don't support it (EINVAL), and need not.
   if (::fsync(file_) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT)) {
     fail({named_.string(), 0}, fmt::format("can't be written: {}", std::strerror(errno)));
   }
@@ -209,9 +209,9 @@ StagedFolder::~StagedFolder() {
   const bool has_grown = std::any_of(growing_.begin(), growing_.end(),
                                      [](const auto& file) { return file->has_written(); });
   try {
-    // What has grown was interrupted; its name says that it is incomplete.
+    // A grown file is kept after an interruption; the folder's name marks it as incomplete.
     if (!has_grown) delete_own_folder(staging_);
-  } catch (const std::exception&) {  // Without memory; the next result here clears it away.
+  } catch (const std::exception&) {  // Out of memory; the next result here removes it.
     static_cast<void>(has_grown);
   }
   if (lock_ >= 0) ::close(lock_);
@@ -282,7 +282,7 @@ const fs::path& StagedFolder::staging() const {
 void StagedFolder::commit(const std::vector<fs::path>& stale) {
   for (const auto& file : growing_) file->finish();
   const FolderLock lock(folder_);
-  roll_forward(folder_);  // Another program's that was killed meanwhile.
+  roll_forward(folder_);  // The commit of another program that was killed meanwhile.
   remove_abandoned(folder_);
   own_ = own_files(folder_);
   for (const fs::path& name : added_) require_free(name);
@@ -296,11 +296,11 @@ void StagedFolder::commit(const std::vector<fs::path>& stale) {
   after.insert(kept.begin(), kept.end());
   write_through(staging_ / kOwnList, own_list_of(after), folder_ / kOwnList);
   growing_.clear();
-  own_.insert(kept_.begin(), kept_.end());  // As for staying where it is.
+  own_.insert(kept_.begin(), kept_.end());  // So that they may stay.
   kept.insert(kept_.begin(), kept_.end());
   if (!files_internal::swap_in(folder_, staging_, own_, kept)) move_in(folder_, staging_);
   added_.clear();
-  if (lock_ >= 0) ::close(std::exchange(lock_, -1));  // It would be one on `folder_` by now.
+  if (lock_ >= 0) ::close(std::exchange(lock_, -1));  // It would now be a lock on `folder_`.
 }
 
 }  // namespace tagfield

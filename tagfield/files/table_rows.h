@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tables as rows of cells, whatever they are written as.
+/// Tables as rows of cells, independent of the file format.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace tagfield {
 
-/// What stands in a row and column: nothing known, a whole number, a number, or text.
+/// The content of a cell: unknown, a whole number, a number, or text.
 struct Cell {
   enum class Kind { kUnknown, kWhole, kNumber, kText };
 
@@ -24,20 +24,19 @@ struct Cell {
 
   Kind kind = Kind::kUnknown;
   std::int64_t whole = 0;
-  double number = 0.0;  ///< Where it is not finite, it is written as what is not known.
+  double number = 0.0;  ///< Written as unknown if it is not finite.
   std::string text;
 };
 
-/// What a table looks like.
+/// Name and columns of a table.
 struct TableForm {
   std::string name;
   std::vector<std::string> columns;
 };
 
-/// A header line, with its end.
+/// A header line, including the line end.
 std::string csv_header(const TableForm& form);
-/// A row, with its end: numbers so that they are read back to the last bit, nothing for what is
-/// unknown.
+/// A row, including the line end: numbers are exact to the last bit, unknown values are empty.
 std::string csv_row(const std::vector<Cell>& cells);
 
 }  // namespace tagfield

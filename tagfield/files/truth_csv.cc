@@ -45,14 +45,14 @@ std::vector<TagPosition> read_tags_csv(const std::string& path) {
 
 }  // namespace
 
-void stage_true_places(const Truth& truth, StagedFolder& folder) {
+void stage_true_positions(const Truth& truth, StagedFolder& folder) {
   folder.add("truth/antenna_poses.csv", poses_to_csv(truth.antenna_poses));
   folder.add("truth/robot_poses.csv", poses_to_csv(truth.robot_poses, "robot"));
   folder.add("truth/tags.csv", table_of(kTagsHeader, truth.tag_positions));
 }
 
 void stage_truth(const Truth& truth, StagedFolder& folder) {
-  stage_true_places(truth, folder);
+  stage_true_positions(truth, folder);
   folder.add(kDistancesFile, table_of(kDistancesHeader, truth.distances));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Least squares on angles with the residual 2 sin(e/2): it is bounded, so that a read that belongs
-/// nowhere pulls little, and half its square is 1 − cos e, the von Mises distribution's
-/// log-likelihood but for its concentration.
+/// Least squares on angles with the residual 2 sin(e/2): it is bounded, so that an outlier has
+/// little influence, and half its square is 1 − cos e, which is the negative log-likelihood of the
+/// von Mises distribution up to its concentration.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,8 +20,8 @@ namespace tagfield {
 /// One angle, linearized in N unknowns.
 template <int N>
 struct CircularRow {
-  double angle = 0.0;                 ///< Measured less predicted [rad].
-  Eigen::Matrix<double, N, 1> slope;  ///< Of the prediction.
+  double angle = 0.0;                 ///< Measured minus predicted [rad].
+  Eigen::Matrix<double, N, 1> slope;  ///< Derivative of the prediction.
 };
 
 /// Normal equations and the cost: Σ w (1 − cos e).
@@ -30,7 +30,7 @@ struct CircularNormal {
   Eigen::Matrix<double, N, N> matrix = Eigen::Matrix<double, N, N>::Zero();
   Eigen::Matrix<double, N, 1> right = Eigen::Matrix<double, N, 1>::Zero();
   double cost = 0.0;
-  std::vector<double> residuals;  ///< e in (−π, π], as they were added [rad].
+  std::vector<double> residuals;  ///< e in (−π, π], in order of addition [rad].
 };
 
 template <int N>
@@ -40,8 +40,8 @@ double circular_mean(const std::vector<CircularRow<N>>& rows) {
   return mean.value();
 }
 
-/// Adds angles that share one offset, which is eliminated at their circular mean; or is 0, unless
-/// `offset_free`.
+/// Adds angles that share one offset. If `offset_free`, it is eliminated at their circular mean,
+/// otherwise it is 0.
 template <int N>
 void add_angles(const std::vector<CircularRow<N>>& rows, bool offset_free, double weight,
                 CircularNormal<N>& normal) {
@@ -68,7 +68,7 @@ void add_angles(const std::vector<CircularRow<N>>& rows, bool offset_free, doubl
   normal.right -= weight * residuals / weights * sum;
 }
 
-/// Unknowns, with the normal equations there.
+/// Unknowns and the normal equations at them.
 template <int N>
 struct CircularFit {
   Eigen::Matrix<double, N, 1> unknowns;
@@ -76,8 +76,8 @@ struct CircularFit {
   double cost = 0.0;  ///< That of `normal`.
 };
 
-/// From `start` to the least cost nearby, as far as `allowed(unknowns)`; a step beyond ends it.
-/// `normal_at(unknowns)` gives the CircularNormal.
+/// Minimizes the cost from `start`; a step to where `allowed(unknowns)` is false ends the search.
+/// `normal_at(unknowns)` returns the CircularNormal.
 template <int N, typename NormalAt, typename Allowed>
 CircularFit<N> fit_angles(const Eigen::Matrix<double, N, 1>& start, const LevenbergMarquardt& how,
                           const NormalAt& normal_at, const Allowed& allowed) {

@@ -14,7 +14,7 @@ class CircularMean {
     cosine_ += weight * std::cos(angle);
     sine_ += weight * std::sin(angle);
   }
-  /// In [−π, π]; 0 of none.
+  /// In [−π, π]; 0 without angles.
   [[nodiscard]] double value() const { return std::atan2(sine_, cosine_); }
 
  private:

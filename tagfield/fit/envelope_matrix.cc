@@ -23,7 +23,7 @@ constexpr Index kRowsAtOnce = 8;
 constexpr Index kColumnsAtOnce = 6;
 static_assert(kTile % kRowsAtOnce == 0 && kTile % kColumnsAtOnce == 0);
 
-/// c −= a bᵀ of one strip of rows and some columns, whose sums stay in registers.
+/// c −= a bᵀ for one strip of rows and some columns, whose sums stay in registers.
 inline void subtract_strip(const double* a, const double* b, double* c) {
   using Lanes = double __attribute__((vector_size(kRowsAtOnce * sizeof(double))));
   Lanes s0{}, s1{}, s2{}, s3{}, s4{}, s5{};
@@ -47,7 +47,7 @@ inline void subtract_strip(const double* a, const double* b, double* c) {
   }
 }
 
-/// c −= a bᵀ of whole tiles.
+/// c −= a bᵀ for whole tiles.
 void subtract_product(const double* a, const double* b, double* c, InstructionSet set) {
   in_lanes(set, [&] {
     for (Index column = 0; column < kTile; column += kColumnsAtOnce) {
@@ -65,12 +65,12 @@ Tile negative_product(const Tile& a, const Tile& b, InstructionSet set) {
   return product;
 }
 
-/// Rows of a block that follow one another in one row of tiles.
+/// Consecutive rows of a block within one row of tiles.
 struct Run {
-  Index begin;  ///< The first of them in the block.
+  Index begin;  ///< First row in the block.
   Index count;
   Index tile;
-  Index offset;  ///< Of the first in the tile.
+  Index offset;  ///< Offset of the first row in the tile.
 };
 
 std::vector<Run> runs_of(const std::vector<Index>& rows) {
@@ -102,7 +102,7 @@ EnvelopeMatrix::EnvelopeMatrix(const std::vector<Index>& firsts)
     starts_.push_back(starts_.back() + static_cast<std::size_t>(row + 1 - first_tiles_.back()));
   }
   values_.assign(starts_.back() * kTileSize, 0.0);
-  // What fills up the last tile must not spoil the factors.
+  // A unit diagonal in the padding of the last tile keeps the factorization valid.
   for (Index i = size_; i < rows * kTile; ++i) {
     tile(rows - 1, rows - 1)[(i % kTile) * (kTile + 1)] = 1.0;
   }
@@ -120,7 +120,7 @@ const double* EnvelopeMatrix::tile(Index row, Index column) const {
          (starts_[at] + static_cast<std::size_t>(column - first_tiles_[at])) * kTileSize;
 }
 
-/// Rows of tiles under the diagonal that have one in that column.
+/// Rows of tiles below the diagonal that have a tile in that column.
 std::vector<Index> EnvelopeMatrix::below(Index column) const {
   std::vector<Index> rows;
   for (Index row = column + 1; row < static_cast<Index>(first_tiles_.size()); ++row) {
@@ -197,9 +197,9 @@ Eigen::VectorXd EnvelopeMatrix::solve(const Eigen::VectorXd& right) const {
 }
 
 void EnvelopeMatrix::invert(int threads, InstructionSet set) {
-  // With U = L_ij L_jj⁻¹ of the tiles under the diagonal, Z = A⁻¹ has Z_ij = −Σ_k Z_ik U_k and
-  // Z_jj = L_jj⁻ᵀ L_jj⁻¹ − Σ_k U_kᵀ Z_kj, where k goes through the same rows: from the last column
-  // to the first.
+  // With U = L_ij L_jj⁻¹ of the tiles under the diagonal, Z = A⁻¹ has Z_ij = −Σ_k Z_ik U_k and Z_jj
+  // = L_jj⁻ᵀ L_jj⁻¹ − Σ_k U_kᵀ Z_kj, where k runs over the same rows, from the last column to the
+  // first.
   for (auto j = static_cast<Index>(first_tiles_.size()) - 1; j >= 0; --j) {
     const Tile inverse = inverse_of_lower(ConstMapOfTile(tile(j, j)));
     const Tile turned = inverse.transpose();

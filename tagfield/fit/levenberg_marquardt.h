@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Least squares by Gauss and Newton's steps with Levenberg's and Marquardt's damping, which grows
-/// where a step leads uphill. What the steps are and what they cost is up to the user.
+/// Least squares by Gauss-Newton steps with Levenberg-Marquardt damping, which grows if a step
+/// increases the cost. Steps and cost are supplied by the caller.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,22 +12,24 @@
 
 namespace tagfield {
 
-/// How the damping goes, and when to end.
+/// Damping schedule and stopping criteria.
 struct LevenbergMarquardt {
-  int most_steps = 30;  ///< Refused ones included.
+  int most_steps = 30;  ///< Including rejected ones.
   double damping = 1e-3;
-  double least_damping = 1e-9;  ///< A step taken divides the damping by ten, down to this.
-  double raise = 10.0;          ///< A step refused multiplies it by this,
-  double least_raised = 0.0;    ///< but up to this at least.
-  double most_damping = std::numeric_limits<double>::infinity();  ///< There it ends.
-  /// A step that gains less is taken as the last; 0 for none.
+  double least_damping = 1e-9;  ///< An accepted step divides the damping by ten, down to this.
+  double raise = 10.0;          ///< A rejected step multiplies it by this,
+  double least_raised = 0.0;    ///< to at least this value.
+  double most_damping = std::numeric_limits<double>::infinity();  ///< Ends the search.
+  /// A step that gains less is accepted as the last one; 0 disables this.
   double least_gain = 0.0;
-  double least_relative_gain = 0.0;  ///< Likewise, of the cost or of 1, whichever is more.
+  /// As above, relative to the cost or to 1, whichever is larger.
+  double least_relative_gain = 0.0;
 };
 
-/// From `here` downhill. A Point has its `cost`. `step(point, damping)` says where the damped step
-/// from a point leads, as std::optional<Point>: none ends it, a cost that is not a number is
-/// refused. A step is taken if it costs less (with a least gain, if it doesn't cost more).
+/// Descends from `here`. A Point has a `cost`. `step(point, damping)` returns the point after the
+/// damped step as std::optional<Point>: nullopt ends the search, and a point whose cost is not a
+/// number is rejected. A step is accepted if it decreases the cost (with a least gain, also if the
+/// cost stays the same).
 template <typename Point, typename Step>
 Point descend(Point here, const LevenbergMarquardt& how, Step&& step) {
   double damping = how.damping;
@@ -48,8 +50,8 @@ Point descend(Point here, const LevenbergMarquardt& how, Step&& step) {
   return here;
 }
 
-/// The normal matrix with its diagonal multiplied by 1 + λ, as Marquardt does, and `ridge` added,
-/// which keeps a singular matrix (nothing to learn) solvable.
+/// The normal matrix with its diagonal multiplied by 1 + λ (Marquardt) and `ridge` added to it,
+/// which keeps a singular matrix (unknowns not observable) solvable.
 template <int N>
 Eigen::Matrix<double, N, N> damped(Eigen::Matrix<double, N, N> normal, double damping,
                                    double ridge = 0.0) {
@@ -58,8 +60,8 @@ Eigen::Matrix<double, N, N> damped(Eigen::Matrix<double, N, N> normal, double da
   return normal;
 }
 
-/// Likewise with λ times the matrix' trace added, as Levenberg does with all unknowns alike: for
-/// unknowns of one unit.
+/// The normal matrix with λ times its trace added to the diagonal (Levenberg): for unknowns of the
+/// same unit.
 template <int N>
 Eigen::Matrix<double, N, N> evenly_damped(Eigen::Matrix<double, N, N> normal, double damping,
                                           double ridge = 0.0) {
@@ -67,7 +69,7 @@ Eigen::Matrix<double, N, N> evenly_damped(Eigen::Matrix<double, N, N> normal, do
   return normal;
 }
 
-/// Whether a step is worth taking: finite, and not shorter than `least`.
+/// Whether a step is finite and not shorter than `least`.
 template <int N>
 bool is_worthwhile(const Eigen::Matrix<double, N, 1>& step, double least) {
   return step.allFinite() && step.norm() >= least;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Products of matrices whose sizes are known when the program runs, compiled once, in products.cc.
+/// Products of matrices of dynamic size, compiled once, in products.cc.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +11,11 @@ namespace tagfield {
 Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& A,
                         const Eigen::Ref<const Eigen::MatrixXd>& B);
 
-/// G A Gᵀ, as a covariance A becomes that of G x.
+/// G A Gᵀ: the covariance of G x if that of x is A.
 Eigen::MatrixXd transformed(const Eigen::Ref<const Eigen::MatrixXd>& G,
                             const Eigen::Ref<const Eigen::MatrixXd>& A);
 
-/// X diag(w) Xᵀ: the covariance of columns of weight w that are centred.
+/// X diag(w) Xᵀ: the covariance of centred columns with weights w.
 Eigen::MatrixXd weighted_scatter(const Eigen::Ref<const Eigen::MatrixXd>& X,
                                  const Eigen::Ref<const Eigen::VectorXd>& w);
 

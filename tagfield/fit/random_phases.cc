@@ -8,9 +8,9 @@
 namespace tagfield {
 namespace {
 
-constexpr double kNowhere = 0.05;  ///< Share of reads that belong nowhere.
+constexpr double kNowhere = 0.05;  ///< Share of outliers.
 
-/// 2π times the wrapped normal density; three turns are more than enough up to kMostPhaseNoise_rad.
+/// 2π times the wrapped normal density; ±3 periods are more than enough up to kMostPhaseNoise_rad.
 double wrapped_normal(double residual, double noise) {
   double sum = 0.0;
   for (int turn = -3; turn <= 3; ++turn) {
@@ -27,7 +27,7 @@ double evidence_of_residuals(const std::vector<double>& residuals, double noise_
   if (residuals.empty()) return 0.0;
   const double noise = std::clamp(noise_rad, least_noise_rad, kMostPhaseNoise_rad);
   const auto count = static_cast<double>(residuals.size());
-  // The noise is known to about 1/√(2n) of itself.
+  // The relative uncertainty of the noise is about 1/√(2n).
   double evidence = std::min(
       0.0, 0.5 * std::log(kPi / count) - std::log(std::log(kMostPhaseNoise_rad / least_noise_rad)));
   for (const double residual : residuals) {

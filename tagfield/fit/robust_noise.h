@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Noise by what a fit leaves unexplained.
+/// Noise estimation from the residuals of a fit.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,8 @@
 
 namespace tagfield {
 
-/// Standard deviation of the noise whose residuals these are, so many unknowns fitted to it; from
-/// the median, so that those that belong nowhere don't count. At least `least`; residuals must not
-/// be empty.
+/// Standard deviation of the noise from residuals of a fit with `unknowns` unknowns; by the median,
+/// so that outliers have no influence. At least `least`; residuals must not be empty.
 double robust_noise(const std::vector<double>& residuals, std::size_t unknowns, double least);
 
 }  // namespace tagfield

@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Dynamic;
 
-/// Up to 6 by 6 on the stack. All fixed sizes go through it: Eigen unrolls each that it is asked
-/// for, which takes four times as long to compile and saves little.
+/// Up to 6 by 6 on the stack, used for all fixed sizes: Eigen unrolls each fixed size, which takes
+/// four times as long to compile and saves little.
 using Small = Eigen::Matrix<double, Dynamic, Dynamic, Eigen::ColMajor, 6, 6>;
 using SmallVector = Eigen::Matrix<double, Dynamic, 1, Eigen::ColMajor, 6, 1>;
 
@@ -37,7 +37,7 @@ double log_determinant_of(const Matrix& A) {
 template <typename Matrix>
 std::optional<Matrix> cholesky_factor_of(const Matrix& A) {
   const Eigen::LLT<Matrix> factors(A);
-  // Where A is not a number, Eigen says nothing.
+  // Eigen does not report NaN in A.
   if (factors.info() != Eigen::Success || !factors.matrixLLT().allFinite()) return std::nullopt;
   return Matrix(factors.matrixL());
 }

@@ -41,7 +41,7 @@ Inventory::Inventory(const LinkSettings& link, const InventorySettings& settings
       qfp_(settings.start_q),
       stream_(seed, Purpose::kGen2, key) {}
 
-// --- What is told --------------------------------------------------------------------------------
+// --- Input ---------------------------------------------------------------------------------------
 
 void Inventory::advance(Time time) {
   if (time < now_) {
@@ -88,7 +88,7 @@ void Inventory::forget(std::uint32_t tag) {
   drop_absent();
 }
 
-/// Takes those without power out of the round.
+/// Removes tags without power from the round.
 void Inventory::drop_absent() {
   const auto absent = [&](std::uint32_t tag) { return !field_.has(tag); };
   for (std::vector<std::uint32_t>* list : {&waiting_, &spent_, &repliers_}) {
@@ -141,9 +141,9 @@ void Inventory::query() {
   redraw();
 }
 
-/// Whether those who took part in the last round, without the tags it read, are all who take part
-/// in the next. This saves asking all tags for their flags at each of the short rounds of a field
-/// that is read already.
+/// Whether the participants of the last round, except the tags it read, are exactly those of the
+/// next. This avoids checking all tags' flags in each of the short rounds of a field whose tags
+/// have all been read.
 bool Inventory::participants_are_known() const {
   return participants_known_ && known_target_ == target_ && next_ < known_until_ &&
          known_version_ == memories_.version();
@@ -163,7 +163,7 @@ void Inventory::gather_participants() {
   known_version_ = memories_.version();
 }
 
-/// All participants draw a slot anew. Which, draw_repliers() says slot by slot.
+/// All participants draw a new slot. draw_repliers() selects them slot by slot.
 void Inventory::redraw() {
   waiting_.insert(waiting_.end(), spent_.begin(), spent_.end());
   spent_.clear();
@@ -173,7 +173,7 @@ void Inventory::redraw() {
 
 // --- One slot ------------------------------------------------------------------------------------
 
-/// Tags that another reader has read since the Query keep silent.
+/// Tags that another reader has read since the Query don't reply.
 void Inventory::drop_those_read_elsewhere() {
   const auto keeps_silent = [&](std::uint32_t tag) {
     return memories_.flag(tag, settings_.session, next_) != target_;
@@ -219,7 +219,8 @@ bool Inventory::is_read() const {
 
 void Inventory::end_slot(std::vector<Singulation>& out) {
   in_slot_ = false;
-  // A tag answers one reader: another's acknowledgement during the slot takes it away from here.
+  // A tag answers one reader at a time: another's acknowledgement during the slot takes it away
+  // from this one.
   const bool was_taken =
       is_read() && memories_.flag(slot_.tag, settings_.session, slot_.end) != target_;
   if (was_taken) slot_.outcome = Outcome::kFailed;
@@ -263,7 +264,8 @@ void Inventory::set_inventoried(std::uint32_t tag) {
   known_until_ = std::min(known_until_, memories_.falls_back(tag, settings_.session));
 }
 
-/// Annex D: Q falls after a slot without replies, rises after one whose replies can't be made out.
+/// Annex D: Q decreases after a slot without replies, and increases after one whose replies can't
+/// be decoded.
 void Inventory::adapt_q() {
   if (!settings_.adaptive_q || is_read()) return;
   qfp_ += slot_.outcome == Outcome::kEmpty ? -settings_.q_step : settings_.q_step;
@@ -283,12 +285,12 @@ void Inventory::end_frame() {
   next_ += durations_.round_overhead;
   if (settings_.carrier_off_between_rounds) interrupt_carrier();
   if (!frame_quiet_) return;
-  // Nobody of this target is left.
+  // No tag of this target is left.
   qfp_ = settings_.start_q;
   if (settings_.target == Target::kAlternate) target_ = inverted(target_);
 }
 
-/// Too short for the clocks of S1 to S3 to notice.
+/// Too brief to affect the persistence of S1 to S3.
 void Inventory::interrupt_carrier() {
   for (const TagOnAir& tag : field_.tags()) memories_.power_off(tag.tag, slot_.end);
   for (const TagOnAir& tag : field_.tags()) memories_.power_on(tag.tag, slot_.end);

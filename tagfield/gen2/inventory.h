@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// An antenna's EPC Gen2 inventory, slot by slot in simulated time (Gen2 v2, 6.3.2.10). It knows no
-/// radio channel: who has power and how strongly a tag is heard is handed in. See docs/gen2.md.
+/// An antenna's EPC Gen2 inventory, simulated slot by slot (Gen2 v2, 6.3.2.10). It knows nothing
+/// about the radio channel: which tags have power and how strong their replies are is its input.
+/// See docs/gen2.md.
 #pragma once
 
 #include <cstdint>
@@ -16,59 +17,60 @@
 
 namespace tagfield {
 
-/// A tag was read.
+/// One read of a tag.
 struct Singulation {
   std::uint32_t tag = 0;
-  Time stamp;  ///< When the reply with the EPC began on the air.
+  Time stamp;  ///< Start of the reply with the EPC.
 };
 
-/// What slots came to; all but `rounds` count slots.
+/// Outcomes of slots; all counts except `rounds` count slots.
 struct InventoryCounts {
   std::int64_t rounds = 0;    ///< Queries sent.
-  std::int64_t empty = 0;     ///< Nobody replied.
+  std::int64_t empty = 0;     ///< No tag replied.
   std::int64_t read = 0;      ///< One tag replied and was read.
-  std::int64_t failed = 0;    ///< One tag replied and was not made out.
-  std::int64_t captured = 0;  ///< Several replied and the strongest was read.
-  std::int64_t collided = 0;  ///< Several replied and none was read.
+  std::int64_t failed = 0;    ///< One tag replied and was not decoded.
+  std::int64_t captured = 0;  ///< Several tags replied and the strongest was read.
+  std::int64_t collided = 0;  ///< Several tags replied and none was read.
 };
 
-/// The inventory at one antenna. It is off until start(). Times told must not go back; Error is
-/// thrown otherwise. The result is a function of what is handed in and when, and not of how
-/// run_until()'s calls divide the time.
+/// The inventory at one antenna. It is off until start(). Times passed must not decrease; otherwise
+/// Error is thrown. The result depends only on the input and its times, not on how run_until()'s
+/// calls divide the time.
 class Inventory {
  public:
-  /// `key` tells this antenna's draws from those of others with the same seed. `memories` must
-  /// outlive this. Throws Error as the settings' check() does.
+  /// `key` distinguishes this antenna's draws from those of others with the same seed. `memories`
+  /// must outlive this. Throws Error as the settings' check() does.
   Inventory(const LinkSettings& link, const InventorySettings& settings, TagMemories& memories,
             std::uint64_t seed, std::uint64_t key);
 
   /// Carrier on: the field's tags have power from `time` on, and the first Query follows. Q and
-  /// target go on from where they were. Nothing if it is on already.
+  /// target continue with their last values. No effect if already on.
   void start(Time time);
-  /// Carrier off: the round is over and a slot in progress comes to nothing. The field's tags lose
-  /// the power that they have from here. Nothing if it is off already.
+  /// Carrier off: the round ends and a slot in progress is lost. The field's tags lose the power of
+  /// this antenna. No effect if already off.
   void stop(Time time);
 
-  /// The tags that this antenna powers from `time` on (while the carrier is on) are these and no
-  /// others. One that is no longer among them leaves the round, and the slot in progress fails if
-  /// it was to be read there; one that is new joins with the next Query. Call run_until(time)
-  /// first. Throws Error if a tag is there twice, its strength is not finite or its probability is
-  /// not from 0 to 1.
+  /// Sets the tags that this antenna powers from `time` on (while the carrier is on). A tag that is
+  /// no longer in the list leaves the round, and the slot in progress fails if it was to be read
+  /// there; a new one joins with the next Query. Call run_until(time) first. Throws Error if a tag
+  /// is listed twice, its strength is not finite or its probability is not from 0 to 1.
   void set_field(Time time, const std::vector<TagOnAir>& tags);
-  /// Takes a tag that is no more out of the field and the round; TagMemories::forget() comes after.
+  /// Removes a tag that no longer exists from the field and the round; TagMemories::forget() comes
+  /// after.
   void forget(std::uint32_t tag);
 
-  /// Goes on to `time` and adds the tags read to `out`, in order of time: of all slots that end by
-  /// then. A slot that ends later is finished by a later call.
+  /// Continues to `time` and appends the reads of all slots that end by then to `out`, in
+  /// chronological order. A slot that ends later is completed by a later call.
   void run_until(Time time, std::vector<Singulation>& out);
 
   [[nodiscard]] bool on() const { return on_; }
-  /// No read to come is stamped earlier: one whose slot is open may be older than the last call.
+  /// The earliest stamp that a read in the slot in progress can have, possibly before the time of
+  /// the last call; Time::max() if no slot is in progress.
   [[nodiscard]] Time next_read_after() const { return in_slot_ ? slot_.epc : Time::max(); }
   [[nodiscard]] const InventoryCounts& counts() const { return counts_; }
-  /// Q of the last Query or QueryAdjust, or the next if it is due.
+  /// Q of the last Query or QueryAdjust, or of the next if it is due.
   [[nodiscard]] int q() const { return q_; }
-  /// The flag that the last Query asked for, or the next will.
+  /// The flag that the last Query selected, or the next will.
   [[nodiscard]] Flag target() const { return target_; }
 
  private:
@@ -76,12 +78,12 @@ class Inventory {
   enum class Outcome { kEmpty, kRead, kFailed, kCaptured, kCollided };
   struct Durations {
     Duration query, query_adjust, query_rep;
-    Duration empty, collided, read, epc_begins;  ///< From the command's end.
+    Duration empty, collided, read, epc_begins;  ///< From the end of the command.
     Duration power_up, round_overhead, slot_overhead, read_overhead;
   };
   struct Slot {
     Outcome outcome = Outcome::kEmpty;
-    std::uint32_t tag = 0;  ///< The strongest that replies, if any does.
+    std::uint32_t tag = 0;  ///< The strongest replying tag, if any.
     Time epc;
     Time end;
   };
@@ -117,7 +119,7 @@ class Inventory {
   std::uint64_t key_;
 
   bool on_ = false;
-  Time now_ = Time::min();  ///< The latest time told.
+  Time now_ = Time::min();  ///< The latest time passed.
   TagField field_;
   InventoryCounts counts_;
 
@@ -126,17 +128,17 @@ class Inventory {
   int q_;
   double qfp_;
   RandomStream stream_;
-  std::vector<std::uint32_t> waiting_;   ///< Participants that have a slot before them.
+  std::vector<std::uint32_t> waiting_;   ///< Participants whose slot is still to come.
   std::vector<std::uint32_t> spent_;     ///< Those that replied in vain and wait for a QueryAdjust.
   std::vector<std::uint32_t> repliers_;  ///< In the slot in progress.
-  std::int64_t slots_left_ = 0;          ///< Of the frame.
-  bool frame_quiet_ = true;              ///< Nobody replied in it.
+  std::int64_t slots_left_ = 0;          ///< Remaining slots of the frame.
+  bool frame_quiet_ = true;              ///< No tag has replied in it.
   bool in_slot_ = false;
   Slot slot_;
-  Time next_;  ///< When the next command begins, unless a slot is in progress.
+  Time next_;  ///< Start of the next command, unless a slot is in progress.
   Command command_ = Command::kQuery;
 
-  // Whether the last round's participants are still all there are.
+  // State for participants_are_known().
   bool participants_known_ = false;
   std::uint64_t known_version_ = 0;
   Flag known_target_ = Flag::kA;

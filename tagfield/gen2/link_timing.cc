@@ -12,11 +12,11 @@ namespace tagfield {
 namespace {
 
 constexpr double kDelimiter_s = 12.5e-6;
-constexpr double kRandomBit = 0.5;  // Ones in a bit that may be either.
+constexpr double kRandomBit = 0.5;  // Mean number of ones in an unknown bit.
 
 double data1_s(const LinkSettings& link) { return link.data1_tari * link.tari_s; }
 
-/// Bits of which so many are ones; where only the mean is known, on average.
+/// Duration of `bits` bits of which `ones` are ones, possibly a mean.
 double bits_s(const LinkSettings& link, int bits, double ones) {
   return (bits - ones) * link.tari_s + ones * data1_s(link);
 }
@@ -35,7 +35,8 @@ int ones_of(Encoding encoding) {
 
 double value_of(DivideRatio ratio) { return ratio == DivideRatio::k8 ? 8.0 : 64.0 / 3.0; }
 
-/// `scale` turns the value into `unit`. The bounds themselves are allowed, but for rounding.
+/// `scale` converts the value to `unit`. The bounds themselves are allowed, with a tolerance for
+/// rounding.
 void check_range(const char* name, double value, double least, double most, double scale,
                  const char* unit) {
   constexpr double kRounding = 1e-9;

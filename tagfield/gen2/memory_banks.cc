@@ -33,7 +33,7 @@ MemoryBanks::MemoryBanks(const Words& epc, Words tid, std::size_t user_words) {
   Words& bank = banks_[number(Bank::kEpc)];
   bank = {0, static_cast<std::uint16_t>(epc.size() << 11U)};
   bank.insert(bank.end(), epc.begin(), epc.end());
-  // Room for an EPC of 96 bits to be written.
+  // Space for an EPC of 96 bits.
   if (bank.size() < kEpcBegins + 6) bank.resize(kEpcBegins + 6, 0);
   banks_[number(Bank::kTid)] = std::move(tid);
   banks_[number(Bank::kUser)].assign(user_words, 0);
@@ -58,7 +58,7 @@ std::uint32_t MemoryBanks::password_at(std::size_t word) const {
   return static_cast<std::uint32_t>(reserved[word]) << 16U | reserved[word + 1];
 }
 
-/// With the access password, or where there is none, the tag is in its secured state.
+/// Whether the tag enters its secured state: with the access password, or if it has none.
 bool MemoryBanks::is_secured(std::uint32_t password) const {
   return password_at(2) == 0 || password == password_at(2);
 }
@@ -82,7 +82,8 @@ MemoryResult MemoryBanks::read(std::uint32_t password, Bank bank, std::size_t po
     return MemoryResult::kOverrun;
   }
   for (std::size_t i = pointer; i < pointer + count; ++i) {
-    // Of locked passwords nobody may read; other banks are always readable.
+    // A locked password can be read only in the secured state, and never if its lock is permanent;
+    // other banks are always readable.
     const LockState& lock = lock_of(bank, i);
     const bool is_hidden = bank == Bank::kReserved && lock.needs_password &&
                            (lock.is_permanent || !is_secured(password));
@@ -104,7 +105,7 @@ MemoryResult MemoryBanks::write(std::uint32_t password, Bank bank, std::size_t p
   for (std::size_t i = pointer; i < pointer + words.size(); ++i) {
     const LockState& lock = lock_of(bank, i);
     const bool is_forbidden = lock.needs_password && (lock.is_permanent || !is_secured(password));
-    // The CRC is the tag's own, and so is its TID.
+    // The tag computes its CRC itself, and its TID is fixed.
     const bool is_own = bank == Bank::kTid || (bank == Bank::kEpc && i == 0);
     if (is_forbidden || is_own) return MemoryResult::kLocked;
   }

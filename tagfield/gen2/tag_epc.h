@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a tag sends for its ID.
+/// The EPC that a tag with a given ID sends.
 #pragma once
 
 #include <string>

@@ -12,7 +12,7 @@ namespace tagfield {
 namespace {
 
 void check(const TagOnAir& tag) {
-  // Names are put together only for a complaint: this is asked of each tag in each round.
+  // Names are formatted only for error messages, since each tag is checked in each round.
   if (!std::isfinite(tag.reply_dbm)) {
     require(false, fmt::format("reply_dbm of tag {}", tag.tag), "finite", tag.reply_dbm);
   }

@@ -6,7 +6,8 @@
 namespace tagfield {
 
 void check(const Persistence& persistence) {
-  constexpr double kMost = 1e9;  // Some thirty years, so that adding it to a stamp stays in range.
+  constexpr double kMost = 1e9;  // About thirty years, so that adding it to a stamp doesn't
+                                 // overflow.
   require_in_range("s1", persistence.s1_s, 0.5, 5.0, "s");
   require_in_range("s2_s3", persistence.s2_s3_s, 2.0, kMost, "s");
 }

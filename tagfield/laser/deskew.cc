@@ -16,12 +16,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A beam as the last one's scanner would see its end.
+/// A beam's end point as seen from the scanner's pose at the last beam.
 struct MovedBeam {
   Beam kind = Beam::kInvalid;
-  double measured_m = 0.0;  ///< Its range as it was.
+  double measured_m = 0.0;  ///< Range as measured.
   Eigen::Vector2d end;      ///< [m, frame L at the last beam]
-  double place = 0.0;       ///< Its angle, in steps from the first one's.
+  double place = 0.0;       ///< Angle, in steps from the first beam's.
 };
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -70,7 +70,7 @@ bool on_one_surface(const MovedBeam& a, const MovedBeam& b, double step_rad) {
   return std::abs(a.measured_m - b.measured_m) <= allowed;
 }
 
-/// The ranges at the scan's angles, gathered piece by piece.
+/// Ranges at the scan's angles, accumulated piece by piece.
 class Resampling {
  public:
   explicit Resampling(const LaserScan& scan)
@@ -80,7 +80,7 @@ class Resampling {
         nothing_(scan.ranges_m.size(), false),
         fallbacks_(scan.ranges_m.size()) {}
 
-  /// The straight piece between the ends of two returns, as far as it is seen from its front.
+  /// Adds the line segment between the ends of two returns, if seen from its front.
   void add_surface(const MovedBeam& a, const MovedBeam& b) {
     const Eigen::Vector2d along = b.end - a.end;
     each_between(a, b, [&](std::size_t k) {
@@ -91,19 +91,19 @@ class Resampling {
     });
   }
 
-  /// Two neighbours that met nothing.
+  /// Adds two neighbours without a hit.
   void add_nothing(const MovedBeam& a, const MovedBeam& b) {
     each_between(a, b, [&](std::size_t k) { nothing_[k] = true; });
   }
 
-  /// A return by itself.
+  /// Adds an isolated return.
   void add_point(const MovedBeam& beam) {
     at_nearest(beam, [&](std::size_t k, double /*away*/) {
       returns_[k] = std::min(returns_[k], beam.end.norm());
     });
   }
 
-  /// What to take where nothing else is known.
+  /// Adds a beam to use where nothing else is known.
   void add_fallback(const MovedBeam& beam) {
     at_nearest(beam, [&](std::size_t k, double away) {
       if (away >= fallbacks_[k].away) return;
@@ -120,15 +120,16 @@ class Resampling {
 
  private:
   struct Fallback {
-    double away = kInfinity;  ///< How far off in angle, in steps.
-    double range_m = 0.0;     ///< Infinite where it met nothing.
+    double away = kInfinity;  ///< Angular distance, in steps.
+    double range_m = 0.0;     ///< Infinite if the beam had no hit.
   };
 
-  /// Calls body(k) for each angle k between two places; a scanner that sees all round has each
-  /// place again a turn further.
+  /// Calls body(k) for each angle k between two beams; for a 360° scanner, also one turn before and
+  /// after.
   template <typename Body>
   void each_between(const MovedBeam& a, const MovedBeam& b, const Body& body) const {
-    // Turned round, the piece is seen from behind; a quarter turn is no neighbourhood.
+    // In reversed order, the segment is seen from behind; beams a quarter turn apart are not
+    // neighbours.
     if (!(b.place >= a.place && b.place - a.place < 0.25 * turn_)) return;
     const auto last = static_cast<double>(returns_.size()) - 1.0;
     for (const double turn : {-turn_, 0.0, turn_}) {
@@ -138,7 +139,7 @@ class Resampling {
     }
   }
 
-  /// Calls body(k, away) for the angle k nearest to a beam, if there is one within half a step.
+  /// Calls body(k, away) for the angle k nearest to a beam, if within half a step.
   template <typename Body>
   void at_nearest(const MovedBeam& beam, const Body& body) const {
     const auto last = static_cast<double>(returns_.size()) - 1.0;
@@ -155,7 +156,7 @@ class Resampling {
     return said(nothing_[k] ? kInfinity : fallbacks_[k].range_m);
   }
 
-  /// As the scan says it.
+  /// Range as represented in the scan.
   [[nodiscard]] float said(double range_m) const {
     if (range_m > scan_.most_range_m) return nothing_range(scan_.most_range_m);
     return range_m >= scan_.least_range_m ? static_cast<float>(range_m) : 0.0F;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One turn of a planar laser scanner, real or simulated.
+/// One scan of a planar laser scanner, real or simulated.
 #pragma once
 
 #include <vector>
@@ -9,22 +9,22 @@
 
 namespace tagfield {
 
-/// Ranges at equal angles about the scanner's z axis, beam i at first_angle_rad + i·angle_step_rad
-/// (frame L of the scanner: x forward, z up, so angles grow to the left) and at the time
+/// Ranges at equally spaced angles about the scanner's z axis: beam i is at first_angle_rad +
+/// i·angle_step_rad (scanner frame L: x forward, z up, so angles increase to the left) and at time
 /// stamp + i·beam_interval.
 struct LaserScan {
   Time stamp;                ///< Of the first beam.
-  Duration beam_interval{};  ///< Between neighbouring beams; 0 where all are taken at once.
+  Duration beam_interval{};  ///< Between neighbouring beams; 0 if all are simultaneous.
   double first_angle_rad = 0.0;
   double angle_step_rad = 0.0;  ///< > 0.
   double least_range_m = 0.0;
   double most_range_m = 0.0;
-  /// Finite. A return is in [least_range_m, most_range_m]; above that the beam met nothing within
-  /// range; 0 is a beam without meaning (too near, or invalid).
+  /// Finite. A return is in [least_range_m, most_range_m]; a larger value means no hit within
+  /// range; 0 is an invalid beam (including too near).
   std::vector<float> ranges_m;
 };
 
-/// What a beam says.
+/// Kind of a beam's result.
 enum class Beam { kReturn, kNothing, kInvalid };
 
 inline Beam beam_of(const LaserScan& scan, float range_m) {
@@ -33,7 +33,7 @@ inline Beam beam_of(const LaserScan& scan, float range_m) {
                                                                              : Beam::kInvalid;
 }
 
-/// The range that stands for a beam that met nothing within `most_range_m` (finite, up to 1e6 m).
+/// Range that represents no hit within `most_range_m` (finite, up to 1e6 m).
 inline float nothing_range(double most_range_m) { return static_cast<float>(most_range_m) + 1.0F; }
 
 /// Angle of beam `i` in L [rad].

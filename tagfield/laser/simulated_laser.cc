@@ -21,11 +21,11 @@ constexpr int kMostBeams = 100'000;
 constexpr double kMostMetres = 1000.0;
 constexpr double kMostRateHz = 10'000.0;
 constexpr double kMostSigmaM = 10.0;
-/// A full turn as it is written with nine decimals.
+/// A full turn, with tolerance for values written with nine decimals.
 constexpr double kFullTurn = kTwoPi + 1e-8;
 
-/// A ray seen from above: points origin + t·direction, where t is the distance along the ray itself
-/// [m], so that `direction` is shorter than 1 where the ray is not level.
+/// Horizontal projection of a ray: points origin + t·direction, where t is the distance along the
+/// 3D ray [m], so that `direction` is shorter than 1 if the ray is not level.
 struct FlatRay {
   Eigen::Vector2d origin;
   Eigen::Vector2d direction;
@@ -35,10 +35,10 @@ FlatRay seen_from_above(const Ray& ray) {
   return {ray.origin.head<2>().cast<double>(), ray.direction.head<2>().cast<double>()};
 }
 
-/// The lesser of `least` and of t, if the ray reaches t; NaN, as of an upright ray, is left out.
+/// The lesser of `least` and t, if t ≥ 0. Ignores NaN, as from a vertical ray.
 double nearer(double t, double least) { return t >= 0.0 && t < least ? t : least; }
 
-/// Where |origin + t·direction − centre| = radius.
+/// Solves |origin + t·direction − centre| = radius.
 double nearer(const Disc& disc, const FlatRay& ray, double least) {
   const Eigen::Vector2d from_centre = ray.origin - disc.centre;
   const double a = ray.direction.squaredNorm();
@@ -50,10 +50,10 @@ double nearer(const Disc& disc, const FlatRay& ray, double least) {
   return nearer((-half_b + root) / a, nearer((-half_b - root) / a, least));
 }
 
-/// A rectangle with its axes in the world.
+/// A rectangle with its axes in the world frame.
 struct Slabs {
   Eigen::Vector2d centre;
-  Eigen::Matrix2d axes;  ///< A row each.
+  Eigen::Matrix2d axes;  ///< One per row.
   Eigen::Vector2d half;  ///< [m]
 };
 
@@ -93,7 +93,7 @@ LaserScan empty_scan(const LaserParameters& laser, std::int64_t number) {
   LaserScan scan;
   scan.stamp = scan_stamp(laser, number);
   const int steps = laser.beams - 1;
-  // Down to a whole nanosecond, so that the last beam is not after the sweep.
+  // Rounded down to a whole nanosecond, so that the last beam is not after the sweep.
   scan.beam_interval = duration_from_seconds(laser.sweep_s) / steps;
   scan.first_angle_rad = laser.first_angle_rad;
   scan.angle_step_rad = (laser.last_angle_rad - laser.first_angle_rad) / steps;
@@ -103,7 +103,7 @@ LaserScan empty_scan(const LaserParameters& laser, std::int64_t number) {
   return scan;
 }
 
-/// What all beams of one instant share.
+/// Data shared by all beams of one instant.
 struct View {
   Eigen::Matrix3d R_WL;
   Eigen::Vector3f origin;
@@ -138,7 +138,7 @@ double to_obstacle(const View& view, const Ray& ray) {
   return least;
 }
 
-/// The beams' rays, and for each how far the nearest obstacle is.
+/// Rays of the beams, and the distance to the nearest obstacle for each.
 struct Beams {
   std::vector<Ray> rays;
   std::vector<double> to_obstacles;
@@ -147,7 +147,7 @@ struct Beams {
 Beams beams_of(const LaserParameters& laser, const LaserScan& scan,
                const std::function<RigidTransform(Time)>& pose_at,
                const std::function<Obstacles(Time)>& obstacles_at) {
-  // A little beyond, so that a wall just there is met.
+  // Slightly further, so that a wall exactly at the maximum range is hit.
   const float most_m = nothing_range(laser.most_range_m);
   const Eigen::Matrix2d turn = rotation_in_plane(scan.angle_step_rad);
   Eigen::Vector2d direction_L(cosine(scan.first_angle_rad), sine(scan.first_angle_rad));
@@ -168,7 +168,7 @@ Beams beams_of(const LaserParameters& laser, const LaserScan& scan,
   return beams;
 }
 
-/// What the laser reports of a true distance.
+/// Range that the laser reports for a true distance.
 float measured(const LaserParameters& laser, double distance_m, double noise_m) {
   if (!(distance_m <= laser.most_range_m)) return nothing_range(laser.most_range_m);
   const double range = distance_m + noise_m;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A Hokuyo-like laser scanner in a world. docs/laser.md has the equations.
+/// Simulation of a Hokuyo-like laser scanner in a world. docs/laser.md has the equations.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,44 +29,43 @@ struct LaserParameters {
 };
 
 /// Throws Error on parameters out of range, naming the parameter: 2 to 100,000 beams over more than
-/// 0 and at most 2π; 0 ≤ least < most ≤ 1000 m; 0 < rate ≤ 10,000 Hz; 0 ≤ sigma ≤ 10 m;
-/// 0 ≤ sweep < 1/rate; a finite place within 1000 m of the robot's base.
+/// 0 and at most 2π; 0 ≤ least < most ≤ 1000 m; 0 < rate ≤ 10,000 Hz; 0 ≤ sigma ≤ 10 m; 0 ≤ sweep <
+/// 1/rate; a finite position within 1000 m of the robot's base.
 void check(const LaserParameters& laser);
 
-/// An upright obstacle that is not part of the world at rest: its outline in the laser's plane at
-/// the time of a beam.
+/// A vertical cylindrical obstacle that is not part of the static world: its outline in the
+/// horizontal plane at the time of a beam.
 struct Disc {
   Eigen::Vector2d centre;  ///< [m, world]
   double radius = 0.0;     ///< [m]
 };
-/// A box on the floor seen from above, turned by `yaw`.
+/// Outline of a box on the floor, rotated by `yaw`.
 struct Rectangle {
   Eigen::Vector2d centre;  ///< [m, world]
   Eigen::Vector2d size;    ///< Edge lengths [m].
   double yaw = 0.0;        ///< [rad]
 };
-/// Taken to be taller than the laser, wherever that is. Outlines are surfaces, seen from either
-/// side; those that are not finite are not there.
+/// Moving obstacles, assumed to be taller than the laser's height, whatever that is. Outlines are
+/// surfaces, visible from both sides; obstacles that are not finite are ignored.
 struct Obstacles {
   std::vector<Disc> discs;
   std::vector<Rectangle> rectangles;
 };
 
-/// Scan `number` (stamp = number / rate). `pose_at` gives X_WR at a time in
-/// [stamp, stamp + sweep_s], so that each beam leaves from where the scanner is then;
-/// `obstacles_at` what moves (or nullptr). Both are asked once for each beam, in order of time, or
-/// once in all where sweep_s is 0. Noise is keyed by (seed, key, number): the same arguments give
-/// the same scan.
+/// Simulates scan `number` (stamp = number / rate). `pose_at` gives X_WR at a time in [stamp, stamp
+/// + sweep_s], so that each beam starts at the scanner's current pose; `obstacles_at` gives the
+/// moving obstacles (or is nullptr). Both are called once per beam, in time order, or only once if
+/// sweep_s is 0. Noise is keyed by (seed, key, number): the same arguments give the same scan.
 ///
-/// A true distance d in [least, most] is a return of d + N(0, sigma_m²); where the noise takes it
-/// below `least` it is 0, and above `most` nothing. d < least is 0 and d > most is nothing, however
-/// the noise falls. Throws Error as check() does.
+/// A true distance d in [least, most] gives a return of d + N(0, sigma_m²), or 0 if the noise takes
+/// it below `least` and no hit if above `most`. Regardless of noise, d < least gives 0 and d > most
+/// no hit. Throws Error as check() does.
 LaserScan simulate_scan(const RayScene& world, const LaserParameters& laser, std::int64_t number,
                         const std::function<RigidTransform(Time)>& pose_at,
                         const std::function<Obstacles(Time)>& obstacles_at, std::uint64_t seed,
                         std::uint64_t key);
 
-/// Stamp of scan `number`. Throws Error beyond ±146 years.
+/// Timestamp of scan `number`. Throws Error beyond ±146 years.
 Time scan_stamp(const LaserParameters& laser, std::int64_t number);
 
 }  // namespace tagfield

@@ -23,7 +23,7 @@ const PlanMount& mount_of(const PlanSpec& plan, const PlannedAntenna& antenna) {
                        [&](const PlanMount& mount) { return mount.name == antenna.mount; });
 }
 
-/// The mount's pose that looks as the antenna does.
+/// The mount's pose with the antenna's boresight.
 RigidTransform pose_of(const PlanMount& mount, const PlannedAntenna& antenna) {
   const auto off = [&](const RigidTransform& X) {
     return (X.rotation * Eigen::Vector3d::UnitX() - antenna.boresight_W).norm();
@@ -50,7 +50,7 @@ Trajectory motion_of(const PlanTags& tags, const PlanTag& tag) {
   return motion;
 }
 
-/// A tag of its own in the scenario keeps its name.
+/// A single tag keeps its name.
 std::string id_of(const PlanTags& tags, std::size_t number) {
   return tags.count == 1 && tags.places.size() == 1 ? tags.name
                                                     : fmt::format("{}_{}", tags.name, number + 1);
@@ -60,7 +60,7 @@ std::string id_of(const PlanTags& tags, std::size_t number) {
 Eigen::Vector3d rpy_of(const Eigen::Quaterniond& q) {
   const Eigen::Matrix3d R = q.toRotationMatrix();
   const double pitch = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
-  if (std::abs(R(2, 0)) > 1.0 - 1e-12) {  // Looks straight up or down: yaw alone.
+  if (std::abs(R(2, 0)) > 1.0 - 1e-12) {  // Straight up or down: yaw only.
     return {0.0, pitch, std::atan2(-R(0, 1), R(1, 1))};
   }
   return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
@@ -75,7 +75,7 @@ YAML::Node flow(const std::vector<double>& numbers) {
 
 std::vector<double> numbers_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
-/// As settings stand in a file: several words are a list.
+/// A setting as written in a file: several words become a list.
 YAML::Node value_of(const std::string& text) {
   if (text.find(' ') == std::string::npos) return YAML::Node(text);
   YAML::Node node(YAML::NodeType::Sequence);
@@ -96,7 +96,8 @@ std::string from_folder(const fs::path& file, const std::string& folder) {
   return error || relative.empty() ? fs::absolute(file).string() : relative.string();
 }
 
-/// A path as it stood in the scenario's file, now from `folder`; a name of no file stays.
+/// Rewrites a path from the scenario's file relative to `folder`; leaves a name that is no file
+/// unchanged.
 void move_path(YAML::Node node, const std::string& scenario, const std::string& folder) {
   if (!node.IsScalar()) return;
   const bool is_from_command = node.Tag() == "!set";
@@ -106,7 +107,7 @@ void move_path(YAML::Node node, const std::string& scenario, const std::string& 
   if (fs::exists(file, error)) node = from_folder(file, folder);
 }
 
-/// All paths that a scenario can have but those of antennas and tags, which are written anew.
+/// Rewrites all paths of a scenario except those of antennas and tags, which are replaced.
 void move_paths(YAML::Node root, const std::string& scenario, const std::string& folder) {
   const auto move = [&](const YAML::Node& node) { move_path(node, scenario, folder); };
   if (root["world"].IsMap()) {
@@ -162,7 +163,7 @@ YAML::Node tag_node(const PlanTags& tags, const PlanTag& tag, std::size_t number
   return node;
 }
 
-/// The boxes that hold each zone's tags, and the readers that are for it.
+/// Adds a box around each zone's tags, and the readers that serve the zone.
 void add_zones(const PlanSpec& plan, const PlannedLayout& layout, YAML::Node& root) {
   for (const PlannedZone& zone : layout.zones) {
     Eigen::AlignedBox2d box;
@@ -191,7 +192,7 @@ void add_zones(const PlanSpec& plan, const PlannedLayout& layout, YAML::Node& ro
   }
 }
 
-/// The other keys' order is the file's.
+/// The other keys keep the order of the file.
 std::vector<PlanTag> written_tags(const ScenarioToPlan& to_plan, std::uint64_t seed) {
   return tags_of_sample(to_plan.plan, seed, 0);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A layout as a scenario: to run at once, or written down.
+/// A layout as a scenario: to run directly, or to write to a file.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace tagfield {
 
-/// The scenario with the layout's antennas and the tags of a sample (tags_of_sample()) instead of
-/// its own, for as long as tags are there. Nothing is located. With `less_db` all tags are detuned
-/// by as much more.
+/// The scenario with its antennas and tags replaced by the layout's antennas and the tags of a
+/// sample (tags_of_sample()), for as long as there are tags. Without localization. `less_db` is
+/// added to the detuning of all tags.
 Scenario scenario_of_layout(const ScenarioToPlan& to_plan, const PlannedLayout& layout,
                             std::uint64_t seed, std::size_t sample, double less_db = 0.0);
 
-/// The same as YAML text for a file in `folder`: the scenario at `path`, with `overrides`, less its
-/// section `plan`. Files that it names are found from `folder`; with "" from anywhere, by absolute
-/// paths. Throws Error as load_scenario().
+/// The same as YAML text for a file in `folder`: the scenario at `path`, with `overrides`, without
+/// its section `plan`. Paths of files are relative to `folder`; with "", absolute. Throws Error as
+/// load_scenario().
 std::string layout_to_yaml(const std::string& path, const std::vector<Override>& overrides,
                            const ScenarioToPlan& to_plan, const PlannedLayout& layout,
                            std::uint64_t seed, const std::string& folder);

@@ -78,7 +78,7 @@ struct ShapeText {
   }
 };
 
-/// All that the world does to waves.
+/// Everything about the world that affects waves.
 std::string text_of(const ScenarioWithWorld& loaded) {
   const RadioWorld& world = *loaded.scenario.radio_world;
   std::string text;
@@ -101,7 +101,7 @@ std::string text_of(const std::vector<RawParameter>& settings) {
   return text;
 }
 
-/// All that the rows are.
+/// Everything that determines the rows.
 std::string text_of(const PlanSpec& plan, const std::vector<LinkRow>& rows) {
   std::string text;
   for (const PlanTags& tags : plan.tags) text += tags.name + ' ' + text_of(tags.model->settings);
@@ -112,7 +112,7 @@ std::string text_of(const PlanSpec& plan, const std::vector<LinkRow>& rows) {
   return text;
 }
 
-/// A draw's key for the diffuse waves at a row.
+/// Key of the draw of diffuse waves at a row.
 std::uint64_t key_of(const PlanSpec& plan, const LinkRow& row) {
   return stream_key(
       fmt::format("{} {} {} {}", plan.tags[row.group].name, row.place, row.orientation, row.stop));
@@ -154,7 +154,7 @@ class Evaluation {
     const RadioModel& model = *physical(mount.antenna);
     const std::vector<double> carriers = sampled_carriers(model);
     std::vector<std::int8_t>& steps = matrix_.steps[number];
-    const std::size_t size = matrix_.rows.size() * kFadingPlaces * carriers.size();
+    const std::size_t size = matrix_.rows.size() * kFadingPositions * carriers.size();
     std::string hash;
     if (!request_.folder.empty()) {
       std::string text =
@@ -184,7 +184,7 @@ class Evaluation {
     const double middle_hz = carriers[carriers.size() / 2];
     const RadioView view = view_from(model, *scenario.radio_world, mount.X_WA[look], middle_hz,
                                      stream_key(mount.name), request_.seed);
-    const std::size_t states = kFadingPlaces * carriers.size();
+    const std::size_t states = kFadingPositions * carriers.size();
     steps.assign(matrix_.rows.size() * states, -128);
     std::vector<RadioPath> paths;
     for (std::size_t row = 0; row < matrix_.rows.size() && !stopped(); ++row) {
@@ -227,7 +227,7 @@ std::vector<PlanStop> stops_of(const PlanTags& tags, double dwell_s) {
 }
 
 LinkStates LinkMatrix::states(std::size_t column, std::size_t row) const {
-  const std::size_t count = kFadingPlaces * carriers[column];
+  const std::size_t count = kFadingPositions * carriers[column];
   const auto begin = steps[column].begin() + static_cast<std::ptrdiff_t>(row * count);
   std::vector<std::int8_t> of_link(begin, begin + static_cast<std::ptrdiff_t>(count));
   const bool is_empty =
@@ -257,7 +257,7 @@ LinkMatrix evaluate_links(const ScenarioToPlan& to_plan, const LinkMatrixRequest
   for (const LinkColumn& column : matrix.columns) {
     const RadioModel& model = *physical(to_plan.plan.mounts[column.mount].antenna);
     matrix.carriers.push_back(sampled_carriers(model).size());
-    bytes += static_cast<double>(matrix.rows.size() * kFadingPlaces * matrix.carriers.back());
+    bytes += static_cast<double>(matrix.rows.size() * kFadingPositions * matrix.carriers.back());
   }
   if (bytes > kMostBytes) {
     throw Error(fmt::format(

@@ -17,7 +17,7 @@ namespace tagfield {
 namespace {
 
 constexpr std::size_t kMostHard = 20;
-constexpr double kHard = 0.9;  ///< From this probability on a place is not hard.
+constexpr double kHard = 0.9;  ///< From this probability on, a position is not hard to read.
 constexpr double kLessPower_db = 2.0;
 constexpr double kDetuning_db = 3.0;
 
@@ -38,8 +38,7 @@ const char* key_of(Limit limit) {
   return "";
 }
 
-/// The limit that keeps most of the options out that would add something to the choice; "" for
-/// none.
+/// The limit that excludes most of the options that would improve the choice; "" for none.
 std::string holding_limit(const SelectionProblem& problem, const OptionSet& choice) {
   const double score = score_of(problem, choice);
   std::map<Limit, std::size_t> kept_out;
@@ -71,7 +70,7 @@ std::string holding_limit(const SelectionProblem& problem, const OptionSet& choi
   fail(location, fmt::format("plan: no layout is feasible: plan.{} allows no antenna", limit));
 }
 
-/// The best found of `count` antennas at most.
+/// The best choice found of at most `count` antennas.
 OptionSet layout_of(SelectionProblem of_count, const std::vector<std::vector<std::size_t>>& orders,
                     std::size_t count) {
   of_count.limits.antennas = count;
@@ -136,7 +135,8 @@ std::vector<PlanTag> tags_of_sample(const PlanSpec& plan, std::uint64_t seed, st
       const double turn = uniform(stream);
       PlanTag tag;
       tag.group = group;
-      // Fewer tags than places are anywhere, one in each of as many equal parts of the places.
+      // If there are fewer tags than positions, stratify: divide the positions into equal parts,
+      // one for each tag.
       const double at = (static_cast<double>(i) + drawn) * static_cast<double>(places) /
                         static_cast<double>(of_group.count);
       tag.place = has_all ? i % places : std::min(places - 1, static_cast<std::size_t>(at));
@@ -231,8 +231,9 @@ class Planner {
     return layout;
   }
 
-  /// The smallest that is enough, or the best. More antennas can be worse, as ports of a reader
-  /// take turns: not for the score, which knows no contention, but for what is forecast.
+  /// Chooses the smallest layout that is sufficient, or the best. More antennas can be worse, as
+  /// the ports of a reader take turns: not by the score, which ignores contention, but by the
+  /// forecast.
   void choose(AntennaPlan& plan) {
     plan.chosen = plan.layouts.size() - 1;
     if (problem_.selection.worth != Worth::kProbability) {
@@ -255,8 +256,8 @@ class Planner {
     plan.stopped_by = holding_limit(of_all, choices_[plan.chosen]);
   }
 
-  /// The cheapest that is found to be enough: of the layouts, and from there on with less and less
-  /// to spend, as long as that is enough.
+  /// Chooses the cheapest sufficient layout found: first among the layouts, then with ever lower
+  /// cost limits as long as the result is sufficient.
   void choose_cheapest(AntennaPlan& plan) {
     const double share = *to_plan_.plan.aim.share;
     for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
@@ -278,7 +279,8 @@ class Planner {
     }
   }
 
-  /// Chooses a layout in the place of the one of as many antennas, or among the others.
+  /// Chooses a layout; it replaces the one with the same number of antennas, or is inserted among
+  /// the others.
   void take(const OptionSet& choice, const PlannedLayout& layout, AntennaPlan& plan) {
     const auto after = std::find_if(choices_.begin(), choices_.end(), [&](const OptionSet& other) {
       return other.size() >= choice.size();

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// Samples of tags that no forecast takes.
+/// Number of the first sample of tags that no forecast uses.
 constexpr std::size_t kFirstSample = 1'000'000;
 
 struct TagCounts {
@@ -48,7 +48,7 @@ class Checker {
 
   [[nodiscard]] bool has_zones() const { return layout_.zones.size() > 1; }
 
-  /// Run number `i`, with all links as much weaker.
+  /// Run number `i`, with all links weaker by `less_db`.
   [[nodiscard]] TagCounts run(std::size_t i, double less_db) const {
     const std::size_t sample = kFirstSample + i;
     const Scenario scenario = scenario_of_layout(to_plan_, layout_, seed_, sample, less_db);

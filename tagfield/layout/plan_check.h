@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A plan against full simulations of its layout.
+/// Checks a plan against full simulations of its layout.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace tagfield {
 
-/// Runs the chosen layout with `count` ≥ 1 samples of tags that the forecast has not seen, seeds
-/// from `first` on, in parallel. What the plan has to spare on every link is taken off there, too,
-/// as the forecast does; cross reads are counted in another run, without that. Those not begun when
-/// `control.stop` was set are left out.
+/// Runs the chosen layout with `count` ≥ 1 samples of tags that the forecast has not seen, with
+/// seeds from `first` on, in parallel. Subtracts the plan's margin from every link, as the forecast
+/// does; cross reads are counted in a separate run without that margin. Leaves out runs not started
+/// when `control.stop` was set.
 PlanCheck check_plan(const ScenarioToPlan& to_plan, const PlannedLayout& layout,
                      std::uint64_t first, std::size_t count, const RunControl& control);
 

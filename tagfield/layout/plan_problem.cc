@@ -13,10 +13,10 @@
 namespace tagfield {
 namespace {
 
-constexpr double kSure = 1e-6;  ///< Misses that are less likely are none.
+constexpr double kSure = 1e-6;  ///< Miss probabilities below this count as zero.
 
-/// Probability that none of `looks` looks on different carriers hears a tag that is heard on
-/// `share` of `carriers`.
+/// Probability that none of `looks` tries on different carriers hears a tag that is heard on the
+/// fraction `share` of `carriers`.
 double miss_of(double share, double looks, std::size_t carriers) {
   if (looks < 1.0) return 1.0 - looks * share;
   const auto all = static_cast<double>(carriers);
@@ -27,18 +27,17 @@ double miss_of(double share, double looks, std::size_t carriers) {
   return miss;
 }
 
-/// Ports that take turns at a reader with all its ports in use.
+/// Number of ports that take turns if all ports of a reader are in use.
 std::size_t ports_in_turn(const PlanSpec& plan) {
   return std::min(plan.limits.ports, plan.limits.antennas);
 }
 
-/// How often an antenna has its turn in a second.
+/// Turns of an antenna per second.
 double looks_a_second(const PlanSpec& plan, const RadioModel& model) {
   return 1.0 / (port_dwell_s(model) * static_cast<double>(ports_in_turn(plan)));
 }
 
-/// How far places are from their mean, along one axis, root mean square [m]; more than what is
-/// aimed at.
+/// Standard deviation of the positions along one axis [m]; more than the target error.
 double spread_of(const PlanSpec& plan) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double squares = 0.0;
@@ -75,7 +74,7 @@ class Builder {
         option.zone = mount.zone.empty() ? kNoZone : zone_number(mount.zone, problem);
         option.cost = mount.cost;
         option.misses = misses(column, most - power + plan_.margin_db, false);
-        // Being cautious here is to take links for as good as they are.
+        // Here the cautious choice is to use links without the margin.
         if (plan_.limits.cross) option.crossings = misses(column, most - power, true);
         if (plan_.aim.dwell_reads || plan_.aim.position_error_m) {
           add_reads(column, most - power + plan_.margin_db, option);
@@ -104,15 +103,15 @@ class Builder {
       const auto ways = static_cast<double>(group.places.size() * group.orientations.size());
       SelectionElement one;
       one.weight =
-          static_cast<double>(group.count) / ways / (tags * static_cast<double>(kFadingPlaces));
+          static_cast<double>(group.count) / ways / (tags * static_cast<double>(kFadingPositions));
       if (!group.zone.empty()) one.zone = zone_number(group.zone, problem);
-      for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+      for (std::size_t place = 0; place < kFadingPositions; ++place) {
         problem.selection.elements.push_back(one);
       }
     }
   }
 
-  /// Of all elements, or only of those of other zones than the mount's.
+  /// Misses of all elements, or only of those in zones other than the mount's.
   [[nodiscard]] std::vector<Miss> misses(std::size_t column, double less_db,
                                          bool only_crossings) const {
     const PlanMount& mount = plan_.mounts[matrix_.columns[column].mount];
@@ -123,28 +122,28 @@ class Builder {
       const LinkElement& element = elements_[number];
       const PlanTags& group = plan_.tags[matrix_.rows[element.first_row].group];
       if (only_crossings && !is_crossing(mount.zone, group.zone)) continue;
-      std::array<double, kFadingPlaces> miss{};
+      std::array<double, kFadingPositions> miss{};
       miss.fill(1.0);
       const std::vector<PlanStop>& stops = stops_at(group);
       for (std::size_t stop = 0; stop < element.stops; ++stop) {
         const LinkStates states = matrix_.states(column, element.first_row + stop);
         if (states.is_empty()) continue;
         const double time_s = stops[stop].end_s - stops[stop].begin_s;
-        for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+        for (std::size_t place = 0; place < kFadingPositions; ++place) {
           miss[place] *=
               miss_of(states.share_heard(place, less_db), looks * time_s, hopped_channels(model));
         }
       }
-      for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+      for (std::size_t place = 0; place < kFadingPositions; ++place) {
         if (miss[place] > 1.0 - kSure) continue;
-        all.push_back({static_cast<std::uint32_t>(number * kFadingPlaces + place),
+        all.push_back({static_cast<std::uint32_t>(number * kFadingPositions + place),
                        static_cast<float>(miss[place] < kSure ? 0.0 : miss[place])});
       }
     }
     return all;
   }
 
-  /// Tags that are heard at a time, in the mean.
+  /// Mean number of tags heard at a time.
   [[nodiscard]] double tags_heard(std::size_t column, double less_db) const {
     double heard = 0.0;
     for (const LinkElement& element : elements_) {
@@ -160,7 +159,7 @@ class Builder {
     return heard;
   }
 
-  /// Reads, or what they tell, by element and fading place.
+  /// Adds the reads, or their information about the position, by element and fading position.
   void add_reads(std::size_t column, double less_db, SelectionOption& option) {
     const LinkColumn& of_column = matrix_.columns[column];
     const PlanMount& mount = plan_.mounts[of_column.mount];
@@ -168,31 +167,32 @@ class Builder {
     const double looks = looks_a_second(plan_, model);
     const double a_second =
         looks * reads_a_turn_.of(model, mount.antenna.rate_hz, tags_heard(column, less_db));
-    // Of its turns, and of the hops in the time.
+    // The lesser of the number of its turns and the number of hops in that time.
     const double visited =
         std::min(looks * plan_.dwell_s, std::floor(plan_.dwell_s / model.plan.dwell_s) + 1.0);
     for (std::size_t number = 0; number < elements_.size(); ++number) {
       const LinkElement& element = elements_[number];
       const std::vector<PlanStop>& stops =
           stops_at(plan_.tags[matrix_.rows[element.first_row].group]);
-      std::array<double, kFadingPlaces> reads{};
+      std::array<double, kFadingPositions> reads{};
       for (std::size_t stop = 0; stop < element.stops; ++stop) {
         const LinkStates states = matrix_.states(column, element.first_row + stop);
         if (states.is_empty()) continue;
         const double time_s = stops[stop].end_s - stops[stop].begin_s;
-        for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+        for (std::size_t place = 0; place < kFadingPositions; ++place) {
           reads[place] += a_second * time_s * states.share_heard(place, less_db);
         }
       }
       const Eigen::Vector3d p_WA = mount.X_WA[of_column.look].translation;
       const Eigen::Vector3d p_WT = matrix_.rows[element.first_row].X_WT.translation;
-      const RangeTold range = plan_.aim.position_error_m
-                                  ? range_told(model, matrix_.states(column, element.first_row),
-                                               less_db, (p_WT - p_WA).norm())
-                                  : RangeTold{};
-      for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+      const RangeInformation range =
+          plan_.aim.position_error_m
+              ? range_information(model, matrix_.states(column, element.first_row), less_db,
+                                  (p_WT - p_WA).norm())
+              : RangeInformation{};
+      for (std::size_t place = 0; place < kFadingPositions; ++place) {
         if (reads[place] < kSure) continue;
-        const auto at = static_cast<std::uint32_t>(number * kFadingPlaces + place);
+        const auto at = static_cast<std::uint32_t>(number * kFadingPositions + place);
         if (plan_.aim.dwell_reads) {
           option.reads.push_back({at, static_cast<float>(reads[place])});
         } else {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a plan asks, as a problem of selection.
+/// A plan as a selection problem.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +13,26 @@
 
 namespace tagfield {
 
-/// A way to mount one antenna, as SelectionProblem::options numbers it.
+/// One way to mount an antenna, at the same index as in SelectionProblem::options.
 struct PlanOption {
   std::size_t column = 0;  ///< Of the matrix.
   double power_dbm = 0.0;
-  double less_db = 0.0;  ///< Than what the matrix was evaluated with.
+  double less_db = 0.0;  ///< Power reduction relative to the evaluation of the matrix.
 };
 
-/// A plan as a problem of selection.
+/// The selection problem of a plan, with the meaning of its options and zones.
 struct PlanProblem {
   SelectionProblem selection;
   std::vector<PlanOption> options;
   std::vector<std::string> zones;  ///< Names, by SelectionOption::zone.
 };
 
-/// Whether a reader for the zone `readers` that reads a tag of the zone `tags` crosses; "" is no
+/// Whether it is a cross read when a reader of zone `readers` reads a tag of zone `tags`; "" is no
 /// zone.
 bool is_crossing(const std::string& readers, const std::string& tags);
 
-/// Reads count with the plan's margin taken off their links, cross reads with links as they are.
+/// The problem of a plan. Reads count with the plan's margin subtracted from their links, cross
+/// reads without it.
 PlanProblem problem_of(const PlanSpec& plan, const LinkMatrix& matrix);
 
 }  // namespace tagfield

@@ -34,8 +34,8 @@ std::vector<double> weights_of(const SelectionProblem& problem) {
   return weights;
 }
 
-/// One exchange, or addition, that adds the most for one place of the choice; whether there was
-/// one.
+/// Makes the best exchange for one option of the choice, or the best addition. Returns whether
+/// there was one.
 bool improve(const SelectionProblem& problem, double& score, OptionSet& choice) {
   for (std::size_t place = 0; place <= choice.size(); ++place) {
     const bool adds = place == choice.size();
@@ -74,7 +74,7 @@ std::vector<double> met_by(const SelectionProblem& problem, const OptionSet& cho
 }
 
 double error_bound_m(const std::vector<Told>& told) {
-  ToldSum sum;
+  InformationSum sum;
   for (const Told& one : told) sum = sum.with(one);
   return sum.error_m();
 }
@@ -135,7 +135,7 @@ std::vector<std::size_t> greedy_order(const SelectionProblem& problem, bool by_c
   struct Entry {
     double value;
     std::size_t option;
-    std::size_t round;  ///< In which the value was computed.
+    std::size_t round;  ///< Round in which the value was computed.
     bool operator<(const Entry& other) const {
       return value != other.value ? value < other.value : option > other.option;
     }
@@ -161,7 +161,7 @@ std::vector<std::size_t> greedy_order(const SelectionProblem& problem, bool by_c
       queue.push(top);
       continue;
     }
-    // Limits only get narrower, so what does not fit now never does.
+    // What exceeds the limits now always will, since the choice only grows.
     const OptionSet more = with(choice, top.option);
     if (broken_limit(problem, more) != Limit::kNone) continue;
     choice = more;
@@ -193,7 +193,7 @@ double upper_bound(const SelectionProblem& problem, const OptionSet& choice) {
 std::optional<double> guaranteed_share(const SelectionProblem& problem) {
   const SelectionLimits& limits = problem.limits;
   if (std::isfinite(limits.cost) || std::isfinite(limits.cross)) return std::nullopt;
-  // Each antenna may need a reader of its own zone.
+  // Each antenna may need a separate reader for its zone.
   if (limits.readers < limits.antennas && problem.zones > 0) return std::nullopt;
   if (limits.readers < limits.antennas / std::max<std::size_t>(limits.ports, 1))
     return std::nullopt;
@@ -216,7 +216,7 @@ OptionSet best_by_trying(const SelectionProblem& problem) {
     }
     for (std::size_t option = from; option < problem.options.size(); ++option) {
       choice.push_back(option);
-      // All limits are of the kind that more antennas only break further.
+      // A choice beyond a limit stays so with more antennas.
       if (broken_limit(problem, choice) == Limit::kNone) go_on(option + 1, choice);
       choice.pop_back();
     }

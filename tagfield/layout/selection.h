@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Which antennas to take: the choice that reads most within its limits, by greed, exchange, trying
-/// all, or exactly. See docs/plan.md.
+/// Selection of antennas: the choice that reads most within its limits, by greedy selection,
+/// exchange, exhaustive search, or an exact solver. See docs/plan.md.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,19 @@
 
 namespace tagfield {
 
-/// Where an option reaches an element, and how likely it misses it there.
+/// An element that an option reaches, and the probability of missing it.
 struct Miss {
   std::uint32_t element = 0;
   float probability = 1.0F;  ///< In [0, 1).
 };
 
-/// How often an option reads an element, where it does.
+/// How often an option reads an element.
 struct ReadsOf {
   std::uint32_t element = 0;
   float reads = 0.0F;
 };
 
-/// What an option tells of where an element is: its part of the Fisher information of x and y
-/// [1/m²].
+/// An option's contribution to the Fisher information about the position x, y of an element [1/m²].
 struct Told {
   std::uint32_t element = 0;
   float xx = 0.0F;
@@ -35,20 +34,20 @@ struct Told {
 
 /// One way to mount one antenna.
 struct SelectionOption {
-  std::size_t site = 0;  ///< Of options of one site at most one is taken.
-  std::size_t zone = 0;  ///< That its reader is for; kNoZone for none.
+  std::size_t site = 0;  ///< At most one option per site may be chosen.
+  std::size_t zone = 0;  ///< That its reader serves; kNoZone for none.
   double cost = 0.0;
-  std::vector<Miss> misses;  ///< By rising element, each once.
-  /// The same for elements of other zones, as far as it is a cross read: what counts against the
-  /// option need not be as weak as what counts for it.
+  std::vector<Miss> misses;  ///< Sorted by element, each at most once.
+  /// The same for elements of other zones, where reading them is a cross read: links that count
+  /// against the option need not have the margin of those that count for it.
   std::vector<Miss> crossings;
-  std::vector<ReadsOf> reads{};  ///< By rising element, each once, where Worth::kReads counts;
-  std::vector<Told> told{};      ///< likewise where Worth::kPlace does.
+  std::vector<ReadsOf> reads{};  ///< Also sorted; used for Worth::kReads.
+  std::vector<Told> told{};      ///< Also sorted; used for Worth::kPlace.
 };
 
 inline constexpr std::size_t kNoZone = std::numeric_limits<std::size_t>::max();
 
-/// What is to be read: tags in one place, of one orientation, in one state of fading.
+/// What is to be read: tags at one position, in one orientation and one fading state.
 struct SelectionElement {
   double weight = 0.0;
   std::size_t zone = kNoZone;
@@ -57,19 +56,19 @@ struct SelectionElement {
 struct SelectionLimits {
   std::size_t antennas = 1;
   std::size_t readers = std::numeric_limits<std::size_t>::max();
-  std::size_t ports = std::numeric_limits<std::size_t>::max();  ///< Of a reader.
+  std::size_t ports = std::numeric_limits<std::size_t>::max();  ///< Per reader.
   double reader_cost = 0.0;
   double cost = std::numeric_limits<double>::infinity();
-  /// Most share of a zone's weight that options of other zones read.
+  /// Maximum fraction of a zone's weight read by options of other zones.
   double cross = std::numeric_limits<double>::infinity();
 };
 
-/// What is worth something of an element, from 0 to 1.
+/// How the worth of an element is measured, from 0 to 1.
 enum class Worth {
-  kProbability,  ///< min(1 − Π p, cap)/cap, of the options' misses.
-  kReads,        ///< min(Σ n, cap)/cap, of their reads.
-  /// ln(det J/det J₀)/ln(det J₁/det J₀), at most 1: J = J₀ + Σ of what they tell, J₀ = 1/spread²,
-  /// and J₁ = 8/error² (times the unit matrix), of an error half as large.
+  kProbability,  ///< min(1 − Π p, cap)/cap, with the miss probabilities p of the options.
+  kReads,        ///< min(Σ n, cap)/cap, with their reads n.
+  /// ln(det J/det J₀)/ln(det J₁/det J₀), at most 1: J = J₀ + Σ of their Fisher information, J₀ =
+  /// 1/spread² and J₁ = 8/error² (times the identity matrix), which stands for half that error.
   kPlace,
 };
 
@@ -79,74 +78,77 @@ struct SelectionProblem {
   std::size_t zones = 0;
   SelectionLimits limits;
   Worth worth = Worth::kProbability;
-  double cap = 1.0;       ///< Probability in (0, 1], or reads, beyond which more is worth nothing.
-  double error_m = 1.0;   ///< Of a place, root mean square, that is aimed at; over 0,
-  double spread_m = 1.0;  ///< and what is known of it before; √2·spread is over the error.
+  double cap = 1.0;       ///< Probability in (0, 1], or reads, above which more is worth nothing.
+  double error_m = 1.0;   ///< Target RMS error of a position; > 0,
+  double spread_m = 1.0;  ///< and its prior standard deviation; √2·spread must exceed the error.
 };
 
-using OptionSet = std::vector<std::size_t>;  ///< Numbers of options, rising.
+using OptionSet = std::vector<std::size_t>;  ///< Indices of options, in ascending order.
 
 /// Σ w·worth over the elements: monotone and submodular in the choice.
 double score_of(const SelectionProblem& problem, const OptionSet& choice);
 
-/// By element, what the choice gives it of what is aimed at: the probability to be read; else 1 or
-/// 0, whether it has its reads, or the bound on its place's error, error_bound_m(), is error_m at
-/// most.
+/// By element, how well the choice meets the aim: the probability of being read; or else 1 or 0,
+/// whether it gets enough reads, or whether the bound on its position error, error_bound_m(), is at
+/// most error_m.
 std::vector<double> met_by(const SelectionProblem& problem, const OptionSet& choice);
 
-/// Two distances leave two places: so many antennas must tell something.
+/// Least number of antennas to locate a tag: two distances leave two possible positions.
 inline constexpr std::size_t kFewestForPlace = 3;
 
-/// √tr (Σ told)⁻¹ [m]; infinity where nothing is told in some direction, or by too few.
+/// √tr (Σ told)⁻¹ [m]; infinity if there is no information in some direction, or from too few
+/// antennas.
 double error_bound_m(const std::vector<Told>& told);
 
-/// Readers that the choice needs: of each zone as many as its antennas need ports.
+/// Number of readers that the choice needs: enough ports for the antennas of each zone.
 std::size_t readers_of(const SelectionProblem& problem, const OptionSet& choice);
-/// Of antennas and readers.
+/// Cost of antennas and readers.
 double cost_of(const SelectionProblem& problem, const OptionSet& choice);
-/// For each zone, the share of its weight that options of other zones read.
+/// For each zone, the fraction of its weight read by options of other zones.
 std::vector<double> cross_of(const SelectionProblem& problem, const OptionSet& choice);
 
-/// Which limit the choice is beyond.
+/// The limit that a choice exceeds.
 enum class Limit { kNone, kAntennas, kSite, kReaders, kCost, kCross };
 Limit broken_limit(const SelectionProblem& problem, const OptionSet& choice);
 
-/// The options in the order in which greed takes them: each time the one that adds most, or adds
-/// most for its cost where `by_cost` is set, as long as one that fits adds anything. Lazy: an
-/// option's gain is computed anew only where it could be the greatest (Minoux 1978).
+/// The options in greedy order: each time the one with the greatest gain, or gain per cost if
+/// `by_cost` is set, as long as one within the limits gains anything. Lazy: an option's gain is
+/// recomputed only if it could be the greatest (Minoux 1978).
 std::vector<std::size_t> greedy_order(const SelectionProblem& problem, bool by_cost = false);
 
-/// Improves a choice by exchanging one option for another, and adding what fits, as long as that
-/// adds anything, at most `rounds` times over all.
+/// Improves a choice by exchanging one option for another or adding one within the limits, as long
+/// as that gains anything, in at most `rounds` rounds.
 OptionSet exchanged(const SelectionProblem& problem, OptionSet choice, int rounds);
 
-/// No choice of at most `limits.antennas` has more: the score and the greatest gains of so many
-/// options, which submodularity bounds it by (Nemhauser, Wolsey, Fisher 1978, (1.9)); 1 at most.
+/// Upper bound on the score of any choice of at most `limits.antennas` options, by submodularity:
+/// the score of `choice` plus that many greatest gains (Nemhauser, Wolsey, Fisher 1978, (1.9)); at
+/// most 1.
 double upper_bound(const SelectionProblem& problem, const OptionSet& choice);
 
-/// What greed has for sure of the best, before anything is known of the case: 1 − 1/e where only
-/// the number of antennas is limited, ½ where sites have several options as well (Fisher,
-/// Nemhauser, Wolsey 1978), and none with other limits that hold greed back.
+/// The a priori guarantee of greedy selection, as a fraction of the optimum: 1 − 1/e if only the
+/// number of antennas is limited, ½ if sites have several options as well (Fisher, Nemhauser,
+/// Wolsey 1978), and none with other limits that restrict it.
 std::optional<double> guaranteed_share(const SelectionProblem& problem);
 
-/// Tries all; for up to some 25 options.
+/// Exhaustive search; feasible for up to some 25 options.
 OptionSet best_by_trying(const SelectionProblem& problem);
 
-/// The best choice, or what was found in time.
+/// The best choice, or the best found in time.
 struct ExactChoice {
   OptionSet choice;
-  double bound = 1.0;  ///< No choice has more.
+  double bound = 1.0;  ///< Upper bound on the score of any choice.
 };
 
-/// Whether this was built with a solver of integer programs.
+/// Whether an integer programming solver was compiled in.
 bool has_exact_solver();
 
-/// Throws Error without a solver, and where places count, which are no integer program.
+/// Throws Error without a solver, and for Worth::kPlace, which is no integer program.
 void require_exact_solver(Worth worth);
 
-/// By an integer program: elements' probabilities are bounded by tangents of 1 − e^−L, of which
-/// more are added where the solution is not on the curve, reads by their sum, and by cuts where it
-/// crosses zones too much. `begin` is a choice that fits. Throws Error as require_exact_solver().
+/// Solves the selection as an integer program: probabilities of elements are bounded by tangents of
+/// 1 − e^−L, of which more are added where the solution is off the curve, and reads by their sum.
+/// Cuts are added where a solution has too many cross reads. `begin` must be within the limits.
+/// Throws Error as require_exact_solver().
 ExactChoice best_exactly(const SelectionProblem& problem, const OptionSet& begin, double seconds);
 
 }  // namespace tagfield

@@ -17,14 +17,14 @@ namespace {
 
 using Wall = std::chrono::steady_clock;
 
-/// How long tags that are located together take, so that none waits long for the others.
+/// Target time for locating a batch of tags, so that none waits long for the others.
 constexpr std::chrono::duration<double> kRound(0.5);
 constexpr std::size_t kMostAtOnce = 1000;
-/// Tags of which estimates are kept.
+/// Maximum number of tags whose estimates are kept.
 constexpr std::size_t kMostEstimates = 200'000;
-/// How soon it looks for new reads.
+/// Interval between checks for new reads.
 constexpr std::chrono::milliseconds kLookAgain(100);
-/// What estimates may take of the processor beside the simulation (nice(1)).
+/// Priority of estimates for CPU time beside the simulation (nice(1)).
 constexpr int kNiceness = 10;
 
 std::map<std::string, Time> last_reads(const std::vector<TagRead>& reads) {
@@ -71,13 +71,13 @@ class LiveEstimates::Impl {
 
   mutable std::mutex lock;  ///< Of the following.
   ReadWindow window;
-  std::uint64_t epoch = 0;  ///< Grows where time goes back.
+  std::uint64_t epoch = 0;  ///< Increases when time goes back.
   std::uint64_t number = 0;
-  std::uint64_t reads = 0;   ///< Ever told.
-  std::uint64_t looked = 0;  ///< Of `reads`, when nothing was left to be made of them.
+  std::uint64_t reads = 0;   ///< Received in all.
+  std::uint64_t looked = 0;  ///< Value of `reads` when all had last been processed.
   std::vector<std::string> warnings;
   std::map<std::string, LiveEstimate> estimates;
-  std::map<std::uint64_t, std::string> by_number;  ///< Tags.
+  std::map<std::uint64_t, std::string> by_number;  ///< Tag of each number.
 
  private:
   void work();
@@ -86,7 +86,7 @@ class LiveEstimates::Impl {
   void keep(LiveEstimate estimate);
 
   LocalizationOptions options_;
-  std::size_t at_once_ = 1;  ///< Of the thread.
+  std::size_t at_once_ = 1;  ///< Used by the thread only.
   std::condition_variable wake_;
   std::condition_variable ended_;
   bool is_over_ = false;
@@ -107,7 +107,7 @@ WindowedReads LiveEstimates::Impl::wait_for_reads(std::uint64_t& of_epoch) {
 }
 
 void LiveEstimates::Impl::work() {
-  // On Linux a thread's own.
+  // On Linux the priority is per thread.
   setpriority(PRIO_PROCESS, 0, kNiceness);
   while (true) {
     std::uint64_t of_epoch = 0;
@@ -140,7 +140,7 @@ void LiveEstimates::Impl::locate(const WindowedReads& taken, std::uint64_t of_ep
   warnings = std::move(said);
   for (TagEstimate& estimate : result.estimates) {
     const auto stamp = last.find(estimate.tag);
-    // Others are reference tags, say, which nobody asked for now.
+    // The result may contain other tags, such as reference tags, which were not requested.
     if (stamp != last.end()) keep({std::move(estimate), stamp->second, result.method});
   }
 }

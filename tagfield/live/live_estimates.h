@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where tags are, as far as the reads of the last minutes say, worked out while they come in.
+/// Estimated positions of tags from the reads of the last minutes, updated as the reads come in.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,28 @@
 
 namespace tagfield {
 
-/// What was last made of a tag.
+/// The last estimate for a tag.
 struct LiveEstimate {
   TagEstimate estimate;
-  Time last_read;            ///< Stamp of the newest read that it is from.
-  std::string method;        ///< That made it.
-  std::uint64_t number = 0;  ///< Grows with each estimate, of whatever tag.
+  Time last_read;            ///< Timestamp of the newest read used.
+  std::string method;        ///< Method of the estimate.
+  std::uint64_t number = 0;  ///< Increases with every estimate, across all tags.
 };
 
 struct LiveEstimateOptions {
   LocalizationOptions localization;
   Duration window = std::chrono::seconds(120);  ///< Of simulated time; older reads don't count.
-  std::size_t most_reads = 2'000'000;           ///< In all, each tag an equal share.
+  std::size_t most_reads = 2'000'000;  ///< In all, equally divided, but at least 100 per tag.
 };
 
-/// An outlet. Locates tags again and again, those of which most is new first, in a thread of its
-/// own of low priority: who tells it reads never waits for it. With little time it is late, and
-/// takes fewer tags at once; each estimate is what locate_tags() makes of the window's reads of the
-/// tags that it was made with. Of a tag that is no longer read the last estimate stays.
+/// An outlet. Locates tags repeatedly, those with the largest fraction of new reads first, in its
+/// own low-priority thread, so that the sender of reads never waits. With little CPU time it lags
+/// behind and processes fewer tags at a time. Each estimate is what locate_tags() returns for the
+/// window's reads of the tags processed together. A tag that is no longer read keeps its last
+/// estimate.
 class LiveEstimates final : public ReadListener, public PoseListener {
  public:
-  /// Throws Error on options that locate_tags() doesn't take.
+  /// Throws Error on options that locate_tags() rejects.
   explicit LiveEstimates(LiveEstimateOptions options);
   ~LiveEstimates() override;
 
@@ -41,17 +42,18 @@ class LiveEstimates final : public ReadListener, public PoseListener {
   void on_pose(const AntennaInfo& antenna, const AntennaPose& pose) override;
   void on_restart() override;
 
-  // From any thread.
+  // Callable from any thread.
 
-  /// Those with a number above `number`, in its order.
+  /// Estimates with a number above `number`, in ascending order.
   [[nodiscard]] std::vector<LiveEstimate> since(std::uint64_t number) const;
-  /// Number of the newest, 0 where there is none.
+  /// Number of the newest estimate, 0 if there is none.
   [[nodiscard]] std::uint64_t newest() const;
-  /// What was last warned of.
+  /// The latest warnings.
   [[nodiscard]] std::vector<std::string> warnings() const;
-  /// Whether nothing is left to be made of what has come.
+  /// Whether all reads received have been processed.
   [[nodiscard]] bool is_idle() const;
-  /// No more estimates; what is being worked out is waited for so long. Whether that was enough.
+  /// Stops estimating; waits up to `patience` for the estimate in progress. Returns whether it
+  /// ended in time.
   bool stop(std::chrono::milliseconds patience);
 
  private:

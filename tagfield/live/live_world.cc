@@ -23,9 +23,9 @@
 namespace tagfield {
 namespace {
 
-/// Three years, which nobody waits for.
+/// Three years, longer than anybody waits.
 constexpr double kWithoutEnd_s = 1e8;
-/// While nothing is due, how soon a stop is noticed.
+/// How soon a stop is noticed while nothing is due.
 constexpr std::chrono::milliseconds kNap(50);
 
 Scenario without_end(const Scenario& scenario) {
@@ -34,7 +34,7 @@ Scenario without_end(const Scenario& scenario) {
   return endless;
 }
 
-/// What to make of the scenario's antennas comes later, one by one.
+/// The scenario's antennas are added later, one by one.
 Scenario without_antennas(const Scenario& scenario) {
   Scenario bare = without_end(scenario);
   bare.antennas.clear();
@@ -89,8 +89,8 @@ class LiveWorld::Impl {
   LiveClock clock;
   Simulation simulation;
   std::vector<LiveAntenna> antennas;
-  std::map<std::string, std::vector<std::string>> ports;  ///< Antennas there ever were, by reader.
-  std::map<std::string, ReaderDuty> duties;  ///< By reader; none where it is as the scenario says.
+  std::map<std::string, std::vector<std::string>> ports;  ///< All antennas ever added, by reader.
+  std::map<std::string, ReaderDuty> duties;  ///< By reader; no entry if it is as the scenario says.
   std::vector<std::shared_ptr<LiveMember>> members;
   std::uint64_t revision = 0;
 
@@ -177,7 +177,7 @@ void LiveWorld::Impl::require_reader(const std::string& reader) const {
   if (!is_there) throw Error(fmt::format("there is no reader called '{}'", reader));
 }
 
-/// The antenna with its reader's duty on top.
+/// The antenna with its reader's duty applied.
 AntennaSpec LiveWorld::Impl::as_told(const LiveAntenna& antenna,
                                      std::vector<std::string>& warnings) const {
   AntennaSpec told = antenna.spec;
@@ -186,7 +186,7 @@ AntennaSpec LiveWorld::Impl::as_told(const LiveAntenna& antenna,
   return told;
 }
 
-/// As its reader's duty and its cable have it.
+/// Switches the antenna according to its reader's duty and its cable.
 void LiveWorld::Impl::apply_duty(LiveAntenna& antenna) {
   switch_off(antenna);
   const auto duty = duties.find(antenna.spec.parameters.reader);
@@ -195,14 +195,14 @@ void LiveWorld::Impl::apply_duty(LiveAntenna& antenna) {
                                           duty->second.antennas.end(), [&](const AntennaDuty& one) {
                                             return one.antenna == antenna.spec.parameters.name;
                                           });
-  std::vector<std::string> told_before;
-  if (is_asked && !antenna.is_faulty) switch_on(antenna, as_told(antenna, told_before));
+  std::vector<std::string> reported_before;
+  if (is_asked && !antenna.is_faulty) switch_on(antenna, as_told(antenna, reported_before));
 }
 
 void LiveWorld::Impl::switch_on(LiveAntenna& antenna, const AntennaSpec& told) {
   simulation.add_antenna(told);
   antenna.is_on = true;
-  // Its inventory begins now, and not with its next update.
+  // Its inventory begins now, not at its next update.
   if (takes_inventory(told.parameters)) simulation.update_antenna(told.parameters.name);
 }
 
@@ -238,13 +238,13 @@ std::vector<LiveAntenna*> LiveWorld::Impl::in_turn(const std::string& reader) {
   return all;
 }
 
-/// With the antennas that send, as they do.
+/// The scenario with only the antennas that transmit, as they currently do.
 Scenario LiveWorld::Impl::scenario_on_air() const {
   Scenario now = scenario;
   now.antennas.clear();
-  std::vector<std::string> told_before;
+  std::vector<std::string> reported_before;
   for (const LiveAntenna& antenna : antennas) {
-    if (antenna.is_on) now.antennas.push_back(as_told(antenna, told_before));
+    if (antenna.is_on) now.antennas.push_back(as_told(antenna, reported_before));
   }
   return now;
 }
@@ -292,7 +292,7 @@ void LiveWorld::add_tag(const TagSpec& tag) {
   if (is_epc_uri(tag.id)) epc_from_uri(tag.id);
   impl_->simulation.add_tag(tag);
   std::vector<TagSpec>& tags = impl_->scenario.tags;
-  // One of the same ID that has gone, or is still to come, gives way.
+  // Replaces a tag with the same ID that has gone or is still to appear.
   tags.erase(std::remove_if(tags.begin(), tags.end(),
                             [&](const TagSpec& other) { return other.id == tag.id; }),
              tags.end());
@@ -421,7 +421,7 @@ std::vector<std::string> LiveWorld::set_duty(const std::string& reader, const Re
     if (antenna.spec.parameters.reader != reader) {
       throw Error(fmt::format("antenna '{}' is not of reader '{}'", one.antenna, reader));
     }
-    // All are tried before the first is switched.
+    // Try all of them before switching the first.
     on_duty(antenna.spec.parameters, duty, warnings);
   }
   for (LiveAntenna& antenna : impl_->antennas) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A scenario that goes on while others look at it, change it and drive its readers.
+/// A running scenario that clients can observe and change, and whose readers they can control.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ namespace tagfield {
 
 class LiveWorld;
 
-/// Takes part in a live world. All calls come from the thread that runs it.
+/// Participant in a live world. All calls come from the thread that runs it.
 class LiveMember {
  public:
   LiveMember() = default;
@@ -28,103 +28,103 @@ class LiveMember {
   LiveMember(const LiveMember&) = delete;
   LiveMember& operator=(const LiveMember&) = delete;
 
-  /// After each step, all reads up to `now` that can be told having been told.
+  /// Called after each step, once all reads available up to `now` have been delivered.
   virtual void on_step(LiveWorld& world, Time now) = 0;
-  /// After tasks were done, and while it is paused now and then.
+  /// Called after tasks were done, and from time to time while paused.
   virtual void on_tasks(LiveWorld& /*world*/) {}
 };
 
 /// An antenna of a live world, as it is now.
 struct LiveAntenna {
-  AntennaSpec spec;   ///< As the scenario, or whoever added it, says.
-  bool is_on = true;  ///< It sends. Else its reader's duty leaves it out, or it is disconnected.
+  AntennaSpec spec;        ///< As given by the scenario or by add_antenna().
+  bool is_on = true;       ///< It transmits: is part of its reader's duty, and connected.
   bool is_faulty = false;  ///< Disconnected: no duty switches it on.
-  /// Of its reader's ports, 1 or more: in the order in which they were first there. One that was
-  /// taken away leaves its port empty, and gets it again.
+  /// Port of its reader, from 1, in the order in which antennas were first added. A removed antenna
+  /// leaves its port empty and gets it back when added again.
   int port = 1;
 };
 
-/// Where it is now.
+/// A named object's current pose.
 struct LivePose {
   std::string name;
   RigidTransform X_W;
 };
 
-/// How a live world goes on.
+/// How a live world runs.
 struct LiveOptions {
-  double speed = 1.0;      ///< Multiple of real time; 0 for as fast as it can.
-  bool is_paused = false;  ///< At first.
-  /// Whether readers read from the start, as the scenario says; else each waits for its duty.
+  double speed = 1.0;      ///< Multiple of real time; 0 for as fast as possible.
+  bool is_paused = false;  ///< Initially.
+  /// Whether readers read from the start, as the scenario says; otherwise each waits for its duty.
   bool readers_start = true;
 };
 
-/// Simulates a scenario without end: robots that have arrived stand still. All members but post()
-/// are for the thread that runs it: in tasks, and in LiveMember::on_step().
+/// Simulates a scenario indefinitely: robots that have arrived stand still. All members except
+/// post() must be called from the thread that runs it: in tasks, and in LiveMember::on_step().
 class LiveWorld {
  public:
   using Task = std::function<void(LiveWorld& world)>;
 
-  /// `outlets` are told what is read, as of any other driver. Throws Error as Simulation does.
+  /// `outlets` receive the reads, as from any other driver. Throws Error as Simulation does.
   LiveWorld(const Scenario& scenario, std::uint64_t seed, Outlets outlets, LiveOptions options);
   ~LiveWorld();
 
-  /// Who takes part; before run().
+  /// Adds a participant; must be called before run().
   void attach(std::shared_ptr<LiveMember> member);
-  /// From any thread: done between two steps, in the order of posting; soon even when paused. A
-  /// task must not throw. After run() has returned it is dropped.
+  /// Posts a task, from any thread. Tasks are done between two steps, in the order of posting,
+  /// promptly even when paused. They must not throw. After run() has returned they are dropped.
   void post(Task task);
-  /// Steps, and does tasks, until `stop`.
+  /// Runs steps and tasks until `stop`.
   void run(const std::atomic<bool>& stop);
 
   [[nodiscard]] Time now() const;
-  /// Grows whenever tags, antennas or obstacles come, go or are put elsewhere by those who use
-  /// this.
+  /// Increases whenever tags, antennas or obstacles are added, removed or moved through this
+  /// interface.
   [[nodiscard]] std::uint64_t revision() const;
-  [[nodiscard]] const Scenario& scenario() const;  ///< With all changes made since.
+  [[nodiscard]] const Scenario& scenario() const;  ///< Including all changes since.
   [[nodiscard]] double speed() const;
-  /// How fast it goes on, as a multiple of real time, over the last second or so; 0 when paused.
+  /// Actual speed as a multiple of real time over the last second or so; 0 when paused.
   [[nodiscard]] double pace() const;
   [[nodiscard]] bool is_paused() const;
-  void set_speed(double speed);  ///< Throws Error unless it is 0 or more, and finite.
+  void set_speed(double speed);  ///< Throws Error unless it is from 0 to 1e6.
   void pause();
   void resume();
-  /// Goes on by so much, and is paused again then.
+  /// Runs for `simulated`, then pauses again.
   void advance(Duration simulated);
 
-  // All throw Error, one line, where the name is not known or taken, or a value is out of range.
+  // All of these throw Error, one line, if a name is unknown or taken, or a value is out of range.
 
   void add_tag(const TagSpec& tag);
   void remove_tag(const std::string& id);
-  /// To rest there from now on.
+  /// Moves the tag to rest there from now on.
   void move_tag(const std::string& id, const RigidTransform& X_WT);
-  /// So much loss by what it is mounted on, each way, instead of what it had [dB].
+  /// Sets the one-way loss due to what the tag is mounted on [dB].
   void detune_tag(const std::string& id, double detuning_db);
   [[nodiscard]] std::vector<LivePose> tags() const;
-  /// Those that move, or ride on a robot.
+  /// Tags that move, or ride on a robot.
   [[nodiscard]] std::vector<LivePose> moving_tags() const;
 
   void add_antenna(const AntennaSpec& antenna);
   void remove_antenna(const std::string& name);
   void move_antenna(const std::string& name, const RigidTransform& X_WA);
-  /// A cable that is off, or on again.
+  /// Disconnects the antenna's cable, or reconnects it.
   void set_antenna_faulty(const std::string& name, bool is_faulty);
   [[nodiscard]] const std::vector<LiveAntenna>& antennas() const;
   [[nodiscard]] RigidTransform antenna_pose(const LiveAntenna& antenna) const;
 
-  /// Names, in the order of the antennas.
+  /// Names of the readers, in the order of the antennas.
   [[nodiscard]] std::vector<std::string> readers() const;
-  /// Until the next duty. What the duty asks for that has no effect, as power of antennas of the
-  /// paper's model, comes back as warnings.
+  /// Applies until the next duty. Returns warnings about settings that have no effect, such as the
+  /// power of antennas with the paper's model.
   std::vector<std::string> set_duty(const std::string& reader, const ReaderDuty& duty);
-  /// As the scenario says.
+  /// Resets the reader to what the scenario says.
   void reset_duty(const std::string& reader);
 
-  /// Something in waves' way, such as a pallet: an absorbing box or cylinder.
+  /// Adds an obstruction, such as a pallet: an absorbing box or cylinder.
   void add_obstacle(const ObstacleSpec& obstacle);
   void remove_obstacle(const std::string& name);
 
   [[nodiscard]] std::vector<LivePose> robots() const;
-  /// Why the antenna reads the tag now, or not.
+  /// Explains why the antenna reads the tag now, or why not.
   [[nodiscard]] LinkExplanation explain(const std::string& antenna, const std::string& tag) const;
 
  private:

@@ -32,7 +32,7 @@ void apply_inventory(const ReaderDuty& duty, Gen2Reader& gen2) {
   inventory.target = duty.target.value_or(inventory.target);
   inventory.adaptive_q = duty.adaptive_q.value_or(inventory.adaptive_q);
   inventory.start_q = duty.start_q.value_or(inventory.start_q);
-  // Q that was asked for is within what it may follow to.
+  // The range of Q must contain the requested Q.
   inventory.min_q = std::min(inventory.min_q, inventory.start_q);
   inventory.max_q = std::max(inventory.max_q, inventory.start_q);
   gen2.link = duty.link.value_or(gen2.link);

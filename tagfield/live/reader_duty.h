@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a live reader is told to do, over what its scenario says.
+/// Commands to a live reader that override its scenario.
 #pragma once
 
 #include <optional>
@@ -14,16 +14,15 @@
 
 namespace tagfield {
 
-/// One antenna of a reader at work. What is not given is as the scenario says.
+/// One active antenna of a reader. Settings that are not given are as in the scenario.
 struct AntennaDuty {
   std::string antenna;
   std::optional<double> transmit_power_dbm;
 };
 
-/// What a reader does from now on, until told otherwise. What is not given is as the scenario says.
+/// What a reader does until the next duty. Settings that are not given are as in the scenario.
 struct ReaderDuty {
-  std::vector<AntennaDuty>
-      antennas;  ///< That send, in the order of their turns; all others are off.
+  std::vector<AntennaDuty> antennas;  ///< In the order of their turns; all others are off.
   std::optional<Session> session;
   std::optional<Target> target;
   std::optional<int> start_q;
@@ -32,9 +31,9 @@ struct ReaderDuty {
   std::optional<ChannelPlan> plan;
 };
 
-/// The antenna as its reader's duty has it: one of the duty's antennas. What the duty asks for and
-/// has no effect, as all of it has none on an antenna of the paper's model, is warned of. Throws
-/// Error where a value is out of range.
+/// The antenna, which must be one of the duty's, with the settings of its reader's duty. Warns of
+/// settings without effect; an antenna of the paper's model ignores all of them. Throws Error if a
+/// value is out of range.
 AntennaParameters on_duty(const AntennaParameters& antenna, const ReaderDuty& duty,
                           std::vector<std::string>& warnings);
 

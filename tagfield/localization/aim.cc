@@ -13,23 +13,23 @@
 
 #include "tagfield/base/units.h"
 #include "tagfield/localization/at_rest.h"
-#include "tagfield/localization/holograms/stretches.h"
+#include "tagfield/localization/holograms/segments.h"
 #include "tagfield/localization/judgement.h"
 
 namespace tagfield {
 namespace {
 
-/// A read's strength, and where its antenna was and looked.
+/// RSSI of a read, with the position and boresight of its antenna.
 struct AimedRead {
   Eigen::Vector3d p_WA;
   Eigen::Vector3d ahead_W;
   double rssi_dbm = 0.0;
 };
 
-/// Of one antenna.
+/// Reads of one antenna.
 struct AimedSeries {
   std::vector<AimedRead> reads;
-  double independent = 0.0;  ///< So many of them, by their fading.
+  double independent = 0.0;  ///< Effective number of reads with independent fading.
 };
 
 double independent_along(const LocalizationProblem& problem, const std::vector<AimedRead>& reads,
@@ -45,7 +45,7 @@ double independent_along(const LocalizationProblem& problem, const std::vector<A
   return independent_samples(along, wavelength(frequency_hz / problem.multiple()));
 }
 
-/// Two antennas that look where the other is said to look; none where both names are empty.
+/// Two antennas whose orientations are exchanged; none if both names are empty.
 using SwappedPair = std::pair<std::string, std::string>;
 
 const std::string& aim_of(const std::string& antenna, const SwappedPair& swapped) {
@@ -59,7 +59,7 @@ std::vector<AimedSeries> aimed_series(const LocalizationProblem& problem,
   std::vector<AimedSeries> all;
   for (const auto& [antenna, series] : samples) {
     const auto track = problem.tracks.find(aim_of(antenna, swapped));
-    if (track == problem.tracks.end() || !is_orientation_told(track->second)) continue;
+    if (track == problem.tracks.end() || !is_orientation_known(track->second)) continue;
     AimedSeries aimed;
     double frequency_hz = 0.0;
     for (const PhaseSample& sample : series) {
@@ -76,7 +76,7 @@ std::vector<AimedSeries> aimed_series(const LocalizationProblem& problem,
   return all;
 }
 
-/// The third of the reads that are nearest to a place, where the direct path rules, as numbers for
+/// The nearest third of the reads to a position, where the direct path dominates, as variables of
 /// the regression: x = cos θ, y = RSSI + 40 log₁₀ r.
 struct Nearest {
   Eigen::ArrayXd x, y;
@@ -110,10 +110,10 @@ Nearest nearest_of(const AimedSeries& series, const Eigen::Vector3d& p_WT, doubl
           share * series.independent};
 }
 
-/// Weighted sums of a regression about its means.
+/// Weighted sums of a linear regression.
 struct Regression {
-  double weight = 0.0, x = 0.0, y = 0.0;  ///< Of antennas' means.
-  double xx = 0.0, xy = 0.0;              ///< Within antennas and of their means.
+  double weight = 0.0, x = 0.0, y = 0.0;  ///< Of the antennas' means.
+  double xx = 0.0, xy = 0.0;              ///< Within antennas and between their means.
 };
 
 void add_within(const Nearest& of, double variance, Regression& sums) {
@@ -122,14 +122,14 @@ void add_within(const Nearest& of, double variance, Regression& sums) {
   sums.xy += weight * ((of.x - of.x.mean()) * (of.y - of.y.mean())).sum();
 }
 
-/// Antennas' levels differ by cables and settings [dB²].
+/// Variance of the antennas' levels, due to cables and settings [dB²].
 constexpr double kLevelVariance = 9.0;
 
 double weight_of_mean(const Nearest& of, double variance) {
   return 1.0 / (variance / of.independent + kLevelVariance);
 }
 
-/// B over its standard deviation: how clearly strength grows towards where the antennas look.
+/// B over its standard deviation: how significantly RSSI increases towards the boresight.
 double forward_score(const std::vector<AimedSeries>& all, const Eigen::Vector3d& p_WT) {
   constexpr double kLeastVariance = 1.0;  // [dB²]
   const double farthest = farthest_of_nearest(all, p_WT);
@@ -173,7 +173,7 @@ void drop_behind(const std::vector<AimedSeries>& all, TagEstimate& estimate) {
   estimate.candidates = std::move(kept);
 }
 
-/// Located tags that are asked whether they are in front of the antennas, evenly taken.
+/// Located tags that are tested for being in front of the antennas, evenly spaced.
 std::vector<const TagEstimate*> asked(const LocalizationProblem& problem,
                                       const LocalizationResult& result) {
   constexpr std::size_t kMostTags = 40;
@@ -184,7 +184,7 @@ std::vector<const TagEstimate*> asked(const LocalizationProblem& problem,
   return some;
 }
 
-/// Scores of these tags together: a standard normal variable for patterns without a front.
+/// Combined score of these tags: a standard normal variable for patterns without a front.
 double forward_score(const LocalizationProblem& problem,
                      const std::vector<const TagEstimate*>& tags, const SwappedPair& swapped) {
   double sum = 0.0;
@@ -234,7 +234,7 @@ void refuse_read_by(const LocalizationProblem& problem, const SwappedPair& anten
 
 }  // namespace
 
-void drop_places_behind(const LocalizationProblem& problem, LocalizationResult& result) {
+void drop_candidates_behind(const LocalizationProblem& problem, LocalizationResult& result) {
   for (TagEstimate& estimate : result.estimates) {
     const auto samples = problem.samples.find(estimate.tag);
     if (estimate.verdict != Verdict::kAmbiguous || samples == problem.samples.end()) continue;

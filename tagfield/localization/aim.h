@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What signal strength tells between places that the phase can't tell apart: an antenna doesn't
-/// read better with its back.
+/// What RSSI says about positions that the phase can't distinguish: an antenna reads no better
+/// behind it than in front.
 #pragma once
 
 #include "tagfield/localization/method.h"
 
 namespace tagfield {
 
-/// Drops candidates of ambiguous tags that the antennas would have to look away from. With antennas
-/// that look along their x axis (as a scenario's do), RSSI + 40 log₁₀ r = A + B cos θ + fading is
-/// fitted to each candidate over the nearest third of the reads. Levels A of antennas differ by
-/// 3 dB; fading counts as often as it is independent along the way. A candidate whose B is negative
-/// by over 2.33 standard deviations (one in a hundred) is dropped where another's is positive.
-/// Nothing is done without RSSI, or where no antenna's orientation is told (all are the identity),
-/// and patterns without a front (B = 0) drop nothing.
-void drop_places_behind(const LocalizationProblem& problem, LocalizationResult& result);
+/// Drops candidates of ambiguous tags that lie behind the antennas. With boresights along the
+/// antennas' x axes (as in a scenario), RSSI + 40 log₁₀ r = A + B cos θ + fading is fitted to each
+/// candidate over the nearest third of the reads. The antennas' levels A differ by 3 dB (1 σ);
+/// reads are weighted by the number of independent fading samples along the path. A candidate whose
+/// B is negative by more than 2.33 standard deviations (one in a hundred) is dropped if the B of
+/// another is positive. Nothing is done without RSSI or if no antenna's orientation is given (all
+/// are the identity); patterns without a front (B = 0) drop nothing.
+void drop_candidates_behind(const LocalizationProblem& problem, LocalizationResult& result);
 
-/// Refuses located tags that two antennas read whose names, ports or poses must be swapped: the
-/// scores B over its standard deviation of all located tags (of 40 at most) together are below
-/// −3.72, which chance does in one case of ten thousand, and with the two looking where the other
-/// is said to look above 3.72. A warning says which two.
+/// Refuses located tags read by two antennas whose names, ports or poses must be swapped: the
+/// combined score (B over its standard deviation) of all located tags (40 at most) is below −3.72,
+/// a one in ten thousand chance, and above 3.72 once the two antennas' orientations are exchanged.
+/// A warning names the two antennas.
 void refuse_swapped_antennas(const LocalizationProblem& problem, LocalizationResult& result,
                              Diagnostics& diagnostics);
 

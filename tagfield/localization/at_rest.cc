@@ -18,7 +18,7 @@
 #include "tagfield/fit/symmetric.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/holograms/hologram.h"
-#include "tagfield/localization/holograms/stretches.h"
+#include "tagfield/localization/holograms/segments.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/residuals.h"
 #include "tagfield/localization/tag_fit.h"
@@ -32,17 +32,19 @@ using Unknowns = Eigen::Matrix<double, 5, 1>;
 using Normal = Eigen::Matrix<double, 5, 5>;
 
 constexpr double kMostLateness = 10.0;  ///< [s]
-constexpr double kMostSpeed = 3.0;      ///< Of a tag [m/s].
+constexpr double kMostSpeed = 3.0;      ///< Maximum speed of a tag [m/s].
 constexpr Index kFewestToJudge = 30;
-constexpr double kRidge = 1e-9;       ///< Keeps what can't be learnt from being singular.
-constexpr double kClimbedOver = 5.0;  ///< Aperture of the place without a departure [λ].
+/// Keeps the normal matrix regular where unknowns are not observable.
+constexpr double kRidge = 1e-9;
+/// Aperture for climbing to the position without a departure [λ].
+constexpr double kClimbedOver = 5.0;
 
-/// What one tag's fit works on.
+/// Input of one tag's fit.
 struct Followed {
   const LocalizationProblem* problem = nullptr;
   HeightModel height;
-  TagPhases wrapped;  ///< As they were reported, and
-  TagPhases phases;   ///< followed from read to read.
+  TagPhases wrapped;  ///< As reported.
+  TagPhases phases;   ///< Tracked from read to read.
   double wavelength = 0.0;
   double middle_s = 0.0;
   Departure departure = Departure::kMotion;
@@ -50,7 +52,7 @@ struct Followed {
 
 /// One linearized residual.
 struct Row {
-  double error = 0.0;  ///< Measured less predicted, but for the offset [m].
+  double error = 0.0;  ///< Measured minus predicted, up to the offset [m].
   Unknowns slope = Unknowns::Zero();
 };
 
@@ -58,7 +60,7 @@ struct RestPoint {
   Unknowns unknowns;
   Normal normal = Normal::Zero();
   Unknowns right = Unknowns::Zero();
-  Eigen::ArrayXd errors;  ///< Offsets taken out [m].
+  Eigen::ArrayXd errors;  ///< Residuals without the offsets [m].
   double cost = 0.0;
 };
 
@@ -67,8 +69,8 @@ double travel(const TagPhases& phases, Index from, Index to) {
                     phases.z[to] - phases.z[from]);
 }
 
-/// Without the jumps by whole cycles that the differences to `place` show.
-TagPhases follow(TagPhases phases, const HeightModel& height, const PlaceVector& place) {
+/// Removes jumps by whole cycles from the differences to the phases expected at `place`.
+TagPhases follow(TagPhases phases, const HeightModel& height, const PositionVector& place) {
   const TagFit there{place, offsets_at(phases, height, place), 0.0};
   const Eigen::ArrayXd errors = residuals_of(phases, height, there);
   std::vector<TagPhases::Span> pieces;
@@ -95,8 +97,8 @@ TagPhases follow(TagPhases phases, const HeightModel& height, const PlaceVector&
   return phases;
 }
 
-/// Times [s] without the pauses in which nothing was read and the antenna stood: nobody knows what
-/// happened then.
+/// Times [s] without pauses in which nothing was read and the antenna stood still: it is unknown
+/// what happened then.
 Eigen::ArrayXd without_pauses(const TagPhases& phases) {
   constexpr double kPause = 2.0;   // [s]
   constexpr double kStood = 0.02;  // [m]
@@ -110,7 +112,7 @@ Eigen::ArrayXd without_pauses(const TagPhases& phases) {
     return phases.time_s[a.first] < phases.time_s[b.first];
   });
   Eigen::ArrayXd times = phases.time_s;
-  std::map<std::string, Index> last;  // Read of an antenna.
+  std::map<std::string, Index> last;  // Last read of each antenna.
   double paused = 0.0;
   for (std::size_t k = 0; k < reads.size(); ++k) {
     const auto& [i, antenna] = reads[k];
@@ -125,11 +127,11 @@ Eigen::ArrayXd without_pauses(const TagPhases& phases) {
   return times;
 }
 
-/// Where the antenna is in the frame in which the tag is at rest, its stamps put right.
+/// Antenna position in the frame in which the tag is at rest, with corrected stamps.
 Eigen::Vector3d antenna_at(const Followed& of, const TagPhases::Span& span, Index i,
                            const Eigen::Vector2d& departure) {
   const double time_s = of.phases.time_s[i];
-  if (of.departure == Departure::kLateness) {
+  if (of.departure == Departure::kLatency) {
     const Trajectory& track = of.problem->tracks.at(span.antenna).X_WA;
     return held_position_at(track, time_from_seconds(time_s - departure[0]));
   }
@@ -142,7 +144,8 @@ Range range_at(const Followed& of, const TagPhases::Span& span, Index i, const U
   return range_to(of.height, unknowns.head<3>(), p_WA.x(), p_WA.y(), p_WA.z());
 }
 
-/// Slopes by the departure are differences over about as much as poses are apart.
+/// Derivatives with respect to the departure are finite differences, over about the spacing of
+/// poses.
 Row row_of(const Followed& of, const TagPhases::Span& span, Index i, const Unknowns& unknowns) {
   const double step = of.departure == Departure::kMotion ? 1e-3 : 0.05;  // [m/s], [s]
   const Range range = range_at(of, span, i, unknowns);
@@ -159,7 +162,8 @@ Row row_of(const Followed& of, const TagPhases::Span& span, Index i, const Unkno
   return row;
 }
 
-/// Offsets are eliminated; what can't be learnt or is known stays where it is.
+/// Linearization at `unknowns`. Offsets are eliminated; unknowns that are known or not observable
+/// stay unchanged.
 RestPoint at(const Followed& of, const Unknowns& unknowns) {
   RestPoint point;
   point.unknowns = unknowns;
@@ -181,7 +185,7 @@ RestPoint at(const Followed& of, const Unknowns& unknowns) {
     point.errors.segment(span.begin, span.count) -= errors / count;
   }
   if (of.height.unknowns() == 2) point.normal(2, 2) = 1.0;
-  if (of.departure == Departure::kLateness) point.normal(4, 4) = 1.0;
+  if (of.departure == Departure::kLatency) point.normal(4, 4) = 1.0;
   point.cost = point.errors.square().sum();
   return point;
 }
@@ -192,11 +196,11 @@ bool is_possible(const Followed& of, const Unknowns& unknowns) {
                                              : std::abs(unknowns[3]) < kMostLateness);
 }
 
-/// ln of the likelihood of a place (stretches.h), with the antennas where a departure puts them.
-/// The way is cut as it was believed, so that likelihoods can be compared: `layout` is that of the
-/// wrapped phases, about any place.
-double log_likelihood(const Followed& of, const Unknowns& unknowns, StretchedReads& layout) {
-  const Eigen::Vector3d p_WT = to_place(of.height, unknowns.head<3>());
+/// ln of the likelihood of a position (segments.h), with the antennas moved by the departure. The
+/// path is divided into sections as believed, so that likelihoods can be compared: `layout` is that
+/// of the wrapped phases, about any position.
+double log_likelihood(const Followed& of, const Unknowns& unknowns, SegmentedReads& layout) {
+  const Eigen::Vector3d p_WT = to_position(of.height, unknowns.head<3>());
   for (const TagPhases::Span& span : of.wrapped.spans) {
     for (Index i = span.begin; i < span.begin + span.count; ++i) {
       const Eigen::Vector3d p_TA = antenna_at(of, span, i, unknowns.tail<2>()) - p_WT;
@@ -207,7 +211,7 @@ double log_likelihood(const Followed& of, const Unknowns& unknowns, StretchedRea
     }
   }
   const Tile here = Tile::Zero();
-  return static_cast<double>(stretch_likelihood(layout, kForPlaces, here, here, here)[0]);
+  return static_cast<double>(segment_likelihood(layout, kForPlaces, here, here, here)[0]);
 }
 
 /// xᵀ C⁻¹ x.
@@ -215,18 +219,17 @@ double distance_of(const Eigen::Vector2d& x, const Eigen::Matrix2d& covariance) 
   return x.dot(solve_symmetric(covariance, x));
 }
 
-/// χ² of two and of one degree of freedom that chance reaches in one case of a million, and ln of
-/// that.
+/// χ² of two and of one degree of freedom that chance reaches in one case in a million, and ln 10⁶.
 constexpr double kCertainOfTwo = 27.6;
 constexpr double kCertainOfOne = 23.9;
 constexpr double kCertainGain = 13.8;
 
 enum class Moved { kNo, kPerhaps, kSurely };
 
-/// Poses that are off for a while, each by `pose_error_m`, look like a motion too. But they are not
-/// six times that off at either end, and with one velocity they seldom leave nothing: a random walk
-/// leaves under 0.02 of its variance in one case of 10⁴. A tag that went half a metre has no place,
-/// however little is claimed of it.
+/// Slow pose errors of `pose_error_m` look like a motion too. But they hardly reach six times that
+/// at both ends, and a constant velocity seldom explains them completely: a random walk leaves
+/// under 0.02 of its variance in one case in 10⁴. A tag that moved half a metre has no position,
+/// however large the claimed error.
 Moved has_moved(const DepartureFit& fit, const Candidate& claim, double pose_error_m) {
   constexpr double kNothing = 0.02;
   constexpr double kFar = 0.5;  // [m]
@@ -259,9 +262,10 @@ RestPoint fitted(const Followed& of, const Unknowns& start) {
   });
 }
 
-/// From the place and from some about it: one that was found without a departure can be far off.
-RestPoint best_fit(const Followed& of, const PlaceVector& start) {
-  constexpr double kFarther[] = {0.25, 0.75};  // Of the rms distance to the antenna.
+/// Starts from the position and from some around it, as a position found without a departure can be
+/// far off.
+RestPoint best_fit(const Followed& of, const PositionVector& start) {
+  constexpr double kFarther[] = {0.25, 0.75};  // As a share of the rms distance to the antenna.
   constexpr std::size_t kReads = 100;
   Followed few = of;
   few.phases = thinned(of.phases, kReads);
@@ -298,46 +302,47 @@ Followed followed(const LocalizationProblem& problem, const std::string& tag, Ta
   return of;
 }
 
-/// Variance of a residual, by how many that are correlated are worth one [m²].
+/// Variance of a residual times the correlation factor [m²].
 double slow_variance(const TagPhases& phases, const Eigen::ArrayXd& errors) {
   return residual_variance(phases.spans, errors) * correlation_factor(phases.spans, errors);
 }
 
-/// By how much a departure is likelier than the likeliest place near `start` without one.
-double log_gain_of(const Followed& of, const PlaceVector& start, const Unknowns& departed) {
-  StretchedReads layout =
-      stretched_reads(of.wrapped, of.wavelength, of.height.z, Eigen::Vector2d::Zero());
-  const auto at_rest = [&](const PlaceVector& place) {
+/// ln of the likelihood ratio of a departure to the most likely position near `start` without one.
+double log_gain_of(const Followed& of, const PositionVector& start, const Unknowns& departed) {
+  SegmentedReads layout =
+      segmented_reads(of.wrapped, of.wavelength, of.height.z, Eigen::Vector2d::Zero());
+  const auto at_rest = [&](const PositionVector& place) {
     Unknowns unknowns = Unknowns::Zero();
     unknowns.head<3>() = place;
     return log_likelihood(of, unknowns, layout);
   };
   const std::vector<Aperture> parts = apertures(of.wrapped, kClimbedOver * of.wavelength);
-  const PlaceVector top = climb(of.wrapped, parts, of.height, start);
+  const PositionVector top = climb(of.wrapped, parts, of.height, start);
   return log_likelihood(of, departed, layout) - std::max(at_rest(start), at_rest(top));
 }
 
-/// None where much is left: other slow errors look like a departure, but none explains them whole.
+/// No gain if much is left: other slow errors resemble a departure, but none explains them
+/// completely.
 double gain_of(const DepartureFit& fit) {
   constexpr double kLeftOver = 0.25;
   return fit.left_over < kLeftOver ? fit.log_gain : -kCertainGain;
 }
 
-/// By how much poses may be off [m]. Place and offset take up most of it, so that hardly any leaves
-/// so much at the best place.
+/// Standard deviation of the pose error [m]. Position and offset absorb most of it, so that hardly
+/// any pose error leaves this much at the best position.
 double pose_error_of(const LocalizationProblem& problem) {
   return problem.pose_error.value_or(kUsualPoseError).sigma_m;
 }
 
-/// What speaks against a tag's place.
+/// Evidence against a tag's position.
 struct Objection {
   std::string why;
   std::optional<double> late_s;
   Moved moved = Moved::kNo;
-  double misfit_m = 0.0;  ///< Of a tag at rest; 0 where only noise is left.
+  double misfit_m = 0.0;  ///< Assuming a tag at rest; 0 if only noise is left.
 };
 
-Objection of_lateness(const DepartureFit& fit, const Candidate& claim) {
+Objection of_latency(const DepartureFit& fit, const Candidate& claim) {
   const double late_s = fit.departure[0];
   return {fmt::format("the phase fits a position {:.2f} m away, with reads stamped {:.2f} s {} "
                       "relative to the poses",
@@ -352,7 +357,7 @@ Objection of_motion(const DepartureFit& fit, Moved moved) {
           std::nullopt, moved};
 }
 
-/// Of the first read; 0 where there is none.
+/// Wavelength of the first read [m]; 0 if there is none.
 double wavelength_of(const SamplesOfTag& samples) {
   for (const auto& [antenna, series] : samples) {
     if (!series.empty()) return wavelength(series.front().frequency_hz);
@@ -360,15 +365,15 @@ double wavelength_of(const SamplesOfTag& samples) {
   return 0.0;
 }
 
-/// Whether what phases leave at the place itself tells of it: not where it is known to no better
-/// than λ/8, as by strengths.
+/// Whether the residuals at the position itself are meaningful: not if it is known to no better
+/// than λ/8, as by RSSI.
 bool is_sharp(const Candidate& claim, double lambda) {
   return claim.expected_error_m < lambda / 8.0;
 }
 
-/// Of a place that is vaguely known: even the best one nearby leaves more than half a cycle of
-/// phases that can be followed (noise under an eighth of one), where reflections bend them by a
-/// radian and poses are off by centimetres.
+/// Whether a vaguely known position has no counterpart: even the best one nearby leaves more than
+/// half a cycle (rms) of phases that can be tracked (noise under an eighth of a cycle), whereas
+/// reflections bias phases by a radian and poses are off by centimetres.
 bool has_no_place(const DepartureFit& fit, double lambda) {
   return fit.misfit_at_rest_m > lambda / 4.0 && fit.noise_m < lambda / 16.0;
 }
@@ -388,13 +393,13 @@ Objection objection_to(const LocalizationProblem& problem, const SamplesOfTag& s
     return {};
   }
   const auto motion = fit_departure(problem, estimate.tag, samples, claim.p_WT, Departure::kMotion);
-  const auto late = fit_departure(problem, estimate.tag, samples, claim.p_WT, Departure::kLateness);
+  const auto late = fit_departure(problem, estimate.tag, samples, claim.p_WT, Departure::kLatency);
   const double of_late = late && is_elsewhere(*late, claim) ? gain_of(*late) : -kCertainGain;
   const Moved moved = motion ? has_moved(*motion, claim, pose_error_of(problem)) : Moved::kNo;
   const double of_moving = moved != Moved::kNo ? gain_of(*motion) : -kCertainGain;
   Objection objection;
   if (std::max(of_late, of_moving) >= kCertainGain) {
-    objection = of_late > of_moving ? of_lateness(*late, claim) : of_motion(*motion, moved);
+    objection = of_late > of_moving ? of_latency(*late, claim) : of_motion(*motion, moved);
   }
   if (!motion) return objection;
   if (objection.why.empty() && !is_sharp(claim, lambda) && has_no_place(*motion, lambda)) {
@@ -404,8 +409,8 @@ Objection objection_to(const LocalizationProblem& problem, const SamplesOfTag& s
   return objection;
 }
 
-/// Motions that may be errors of the poses are none, unless the other tags say that it was not the
-/// poses: a quarter of all surely move, half of all may, or most fit far better at rest.
+/// Drops motions that may be pose errors, unless the other tags show that the poses were right: a
+/// quarter of all surely move, half of all may move, or most fit far better at rest.
 void drop_unconfirmed(std::vector<Objection>& objections) {
   constexpr std::size_t kFewest = 5;
   constexpr double kFarBetter = 3.0;
@@ -450,11 +455,11 @@ std::vector<std::size_t> some_of(const std::vector<std::size_t>& all, std::size_
 
 bool leaves_slow_errors(const LocalizationProblem& problem, const std::string& tag,
                         const SamplesOfTag& samples, const Eigen::Vector3d& p_WT) {
-  constexpr double kSlow = 3.0;  // Reads that are worth one; noise alone leaves 1 to 1.5.
+  constexpr double kSlow = 3.0;  // Correlation factor; noise alone leaves 1 to 1.5.
   const TagPhases phases = coherent_reads(problem, samples);
   if (phases.size() < kFewestToJudge) return false;
   const HeightModel height = height_model(problem, tag, phases);
-  const PlaceVector place = to_unknowns(height, p_WT);
+  const PositionVector place = to_unknowns(height, p_WT);
   const Eigen::ArrayXd errors =
       residuals_of(phases, height, {place, offsets_at(phases, height, place), 0.0});
   return correlation_factor(phases.spans, errors) > kSlow;
@@ -477,9 +482,9 @@ std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
         const auto track = problem.tracks.find(span.antenna);
         return track != problem.tracks.end() && !track->second.X_WA.empty();
       });
-  if (departure == Departure::kLateness && !has_tracks) return std::nullopt;
+  if (departure == Departure::kLatency && !has_tracks) return std::nullopt;
   const Followed of = followed(problem, tag, std::move(phases), p_WT, departure);
-  const PlaceVector start = to_unknowns(of.height, p_WT);
+  const PositionVector start = to_unknowns(of.height, p_WT);
   const RestPoint end = best_fit(of, start);
   DepartureFit fit;
   fit.place = end.unknowns.head<3>();

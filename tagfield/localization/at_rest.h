@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Whether phases say that a tag was at rest, and that the stamps of reads and poses are of one
-/// clock: a tag that moved and an antenna that was elsewhere fit some place, too.
+/// Checks by phase that a tag was at rest and that reads and poses were stamped by the same clock:
+/// the phases of a moving tag, or of an antenna that was elsewhere, also fit some position.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,63 +14,64 @@
 
 namespace tagfield {
 
-/// A place further off than so many times its expected error is not the same place.
+/// A position further away than this many expected errors counts as a different one.
 inline constexpr double kElsewhere = 3.0;
 
-/// What else may be so, besides the tag's place.
+/// Departure from the assumptions, fitted along with the tag's position.
 enum class Departure {
-  kMotion,   ///< The tag moves at one velocity (x, y) [m/s] about its place at the mean stamp.
-  kLateness  ///< The stamps of reads are late by so many seconds, against those of the poses.
+  /// The tag moves at a constant velocity (x, y) [m/s] through its position at the mean stamp.
+  kMotion,
+  kLatency  ///< The stamps of reads have a latency [s] relative to those of the poses.
 };
 
-/// Least squares on followed phases with a departure from what methods take for granted.
+/// Least-squares fit of tracked phases with a departure from what methods assume.
 struct DepartureFit {
-  PlaceVector place = PlaceVector::Zero();
-  Eigen::Vector2d departure = Eigen::Vector2d::Zero();  ///< Of a lateness the second is 0.
-  /// Of both. Correlated residuals count as their correlation factor says (residuals.h).
+  PositionVector place = PositionVector::Zero();
+  Eigen::Vector2d departure = Eigen::Vector2d::Zero();  ///< For a latency the second is 0.
+  /// Of position and departure, scaled by the residuals' correlation factor (residuals.h).
   Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
-  double noise_m = 0.0;           ///< Of one read: noise_of_one().
-  double misfit_at_rest_m = 0.0;  ///< rms of what the best place nearby without it leaves.
-  /// Of the variance of slow errors that the best place nearby without it leaves.
+  double noise_m = 0.0;           ///< Of a single read: noise_of_one().
+  double misfit_at_rest_m = 0.0;  ///< Residual rms at the best position nearby without it.
+  /// Ratio of the slow errors' variance to that at the best position nearby without the departure.
   double left_over = 1.0;
-  /// ln of how much likelier this is (stretches.h) than the likeliest place nearby without it.
+  /// ln of the likelihood ratio (segments.h) to the most likely position nearby without it.
   double log_gain = 0.0;
-  /// From the first read to the last; of a motion without pauses of over 2 s in which nothing was
-  /// read and the antenna stood.
+  /// From the first read to the last. For a motion, pauses of over 2 s in which nothing was read
+  /// and the antenna stood still are not counted.
   double duration_s = 0.0;
 };
 
-/// Phases are followed from read to read against what a tag at `p_WT` would show, over pieces with
-/// less than a quarter wavelength of travel between reads; each piece has an offset. None where too
-/// few can be followed.
+/// Tracks the phases from read to read relative to those expected of a tag at `p_WT`, over segments
+/// with less than a quarter wavelength of travel between reads; each segment has its own offset.
+/// nullopt if too few reads can be tracked.
 std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
                                           const std::string& tag, const SamplesOfTag& samples,
                                           const Eigen::Vector3d& p_WT, Departure departure);
 
-/// The located tags whose places can be held against their reads, by number of the estimate:
-/// those with samples, but for reference tags.
+/// Indices of the estimates of located tags that can be checked against their reads: those with
+/// samples, except reference tags.
 std::vector<std::size_t> claimed_tags(const LocalizationProblem& problem,
                                       const LocalizationResult& result);
 
-/// At most `most` of them, evenly taken.
+/// At most `most` of them, evenly spaced.
 std::vector<std::size_t> some_of(const std::vector<std::size_t>& all, std::size_t most);
 
-/// Whether what a place leaves of the phases is no noise: a departure leaves slow errors.
+/// Whether the phase residuals at a position are more than noise: a departure leaves slow errors.
 bool leaves_slow_errors(const LocalizationProblem& problem, const std::string& tag,
                         const SamplesOfTag& samples, const Eigen::Vector3d& p_WT);
 
-/// Warns that the stamps of reads seem late (early, if below 0) against those of the poses.
+/// Warns that the stamps of reads seem late (early if negative) relative to those of the poses.
 void warn_of_latency(double late_s, Diagnostics& diagnostics);
 
-/// Refuses tags whose phases show that they moved while they were read, by more than three times
-/// what their places are expected to be off or by half a metre, and those that are elsewhere by
-/// three times what they are expected to be off once reads and poses are shifted in time against
-/// one another: where chance does so in less than one case of a million, amid reflections too, and
-/// hardly any slow errors are left; a motion, where a tag at rest would leave more than pose errors
-/// do, or where it leaves nothing and the other tags say that it was not the poses. Of places that
-/// are known to no better than λ/8 those too where the best place nearby leaves over half a cycle
-/// of phases that can be followed. Where most tags agree in a shift a warning says by how much. Not
-/// of methods that correct poses.
+/// Refuses tags whose phases show that they moved while they were read, by more than three expected
+/// errors or by half a metre, and tags that are elsewhere by three expected errors once reads and
+/// poses are shifted in time relative to each other. Both require that chance would do so in less
+/// than one case in a million, even amid reflections, and that hardly any slow errors are left. A
+/// motion also requires that a tag at rest would leave larger residuals than pose errors do, or
+/// that the motion leaves hardly any and the other tags show that the poses were right. Positions
+/// known to no better than λ/8 are also refused if even the best position nearby leaves over half a
+/// cycle of phases that can be tracked. If most tags agree on a time shift, a warning reports it.
+/// Does not apply to methods that correct poses.
 void refuse_departures(const LocalizationProblem& problem, int threads, LocalizationResult& result,
                        Diagnostics& diagnostics);
 

@@ -24,17 +24,19 @@ namespace {
 /// Methods that may be chosen.
 constexpr const char* kChosen[] = {
     "joint", "ml", "sar", "robust", "multipath", "scan", "trilateration", "fixed", "landmarc"};
-constexpr std::size_t kLooks = 20;      ///< Tags that are looked at.
-constexpr double kShortStretch = 12.0;  ///< Reads; over fewer, unwrapping leaves little.
-constexpr double kMost = 0.5;           ///< Of the reads that are looked at.
-/// So many reads that are worth one are no noise: noise alone leaves 1 to 1.5, reflections 5 and
-/// more over decimetres.
+constexpr std::size_t kLooks = 20;  ///< Number of tags examined.
+/// Reads; with fewer per segment, unwrapping leaves little.
+constexpr double kShortSegment = 12.0;
+constexpr double kMost = 0.5;  ///< Share of the reads examined.
+/// Correlation factor beyond which residuals are more than noise: noise alone leaves 1 to 1.5,
+/// reflections 5 and more over decimetres.
 constexpr double kSlow = 3.0;
-/// A misfit so many times the noise is not noise. Of the joint estimate it is 0.7 to 0.9 with all
-/// sorts of pose errors, 2.6 to 3.7 in a hall with reflections (docs/estimators.md).
+/// Ratio of misfit to noise beyond which there is more than noise. For the joint estimate it is 0.7
+/// to 0.9 with all sorts of pose errors, 2.6 to 3.7 in a hall with reflections
+/// (docs/estimators.md).
 constexpr double kLeftOver = 1.6;
 
-/// Of an even number the lesser: one odd tag of two is no sign of reflections. 0 of none.
+/// Lower median: of two tags a single odd one is no sign of reflections. 0 for an empty list.
 double lesser_median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto half = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
@@ -42,22 +44,22 @@ double lesser_median(std::vector<double> values) {
   return *half;
 }
 
-/// What one tag tells.
+/// Findings for one tag.
 struct Look {
   double reads = 0.0;
-  double stretches = 0.0;
-  double misfit = -1.0;  ///< Over the noise; negative where there is no fit.
-  double noise_m = 0.0;  ///< Of one read.
-  double samples = 0.0;  ///< All that there are, of a tag that might be located.
+  double segments = 0.0;
+  double misfit = -1.0;  ///< Divided by the noise; negative if there is no fit.
+  double noise_m = 0.0;  ///< Of a single read.
+  double samples = 0.0;  ///< Total number of reads, for a tag that might be located.
   bool is_short_scan = false;
   bool has_outliers = false;
-  double reads_worth_one = 1.0;  ///< By the correlation of what the brightest place leaves.
+  double reads_worth_one = 1.0;  ///< Correlation factor of the residuals at the brightest position.
 };
 
 void look_at_brightest(const LocalizationProblem& problem, const std::string& tag,
                        const SamplesOfTag& samples, Look& look) {
   look.is_short_scan = scan_field(problem, tag, samples).why_not.empty();
-  const BrightestPlace there = brightest_place(problem, tag, samples);
+  const HologramPeak there = hologram_peak(problem, tag, samples);
   if (there.residuals_rad.size() == 0) return;
   look.reads_worth_one = there.reads_worth_one;
   look.has_outliers =
@@ -68,9 +70,9 @@ Look look_at(const LocalizationProblem& problem, const std::string& tag,
              const SamplesOfTag& samples) {
   const UnwrappedFit fit = fit_unwrapped(problem, tag, samples);
   Look look;
-  if (why_hopeless(samples).empty()) look.samples = static_cast<double>(count_reads(samples));
+  if (why_not_locatable(samples).empty()) look.samples = static_cast<double>(count_reads(samples));
   look.reads = static_cast<double>(fit.reads_followed);
-  look.stretches = static_cast<double>(fit.stretches);
+  look.segments = static_cast<double>(fit.segments);
   look_at_brightest(problem, tag, samples, look);
   if (!fit.why_not.empty()) return look;
   const Eigen::ArrayXd errors = residuals_of(fit.phases, fit.height, fit.fits.front());
@@ -123,7 +125,7 @@ void look_at_all(const LocalizationProblem& problem, DataTraits& traits) {
   traits.channels = carriers.size();
 }
 
-/// Misfit of the tags that were located, or nearly, or refused together, over the noise.
+/// Misfit, divided by the noise, of tags with candidates or refused together.
 double misfit_left(const LocalizationResult& result, double noise_m) {
   std::vector<double> misfits = result.misfits_m;
   for (const TagEstimate& estimate : result.estimates) {
@@ -153,31 +155,32 @@ LocalizationProblem without_outliers(const LocalizationProblem& given, int threa
   return cleaned;
 }
 
-/// Of the tags, how many the result places.
+/// Number of tags located in the result.
 std::size_t places_in(const LocalizationResult& result) {
   return static_cast<std::size_t>(std::count_if(
       result.estimates.begin(), result.estimates.end(),
       [](const TagEstimate& estimate) { return estimate.verdict == Verdict::kLocated; }));
 }
 
-/// Short stretches may still be followed together with the pose's error, which adding up waves
-/// leaves in. Believed where it leaves no more than noise and places no fewer tags.
+/// Tries `joint`: unlike adding up phasors, it estimates the pose error, so that the phase may be
+/// tracked even over short segments. Accepted if it leaves no more than noise and locates no fewer
+/// tags.
 void try_jointly(const std::vector<Method>& methods, const LocalizationProblem& problem,
                  const DataTraits& traits, int threads, Diagnostics& diagnostics, Choice& choice,
                  LocalizationResult& result) {
   Diagnostics of_joint;
   LocalizationResult joint = find_method(methods, "joint").locate(problem, threads, of_joint);
   if (places_in(joint) < std::max<std::size_t>(places_in(result), 1)) return;
-  // Of phases that nobody could follow there is no noise to hold it against.
+  // If no phases could be tracked, there is no noise estimate to compare with.
   if (!(traits.noise_m > 0.0) || misfit_left(joint, traits.noise_m) > kLeftOver) return;
   for (const std::string& warning : of_joint.warnings()) diagnostics.warn(warning);
   result = std::move(joint);
   choice = {"joint", fmt::format("the pose is not exact, and with its error estimated the phases "
                                  "can be followed, over {:.0f} reads on average",
-                                 traits.reads_a_stretch)};
+                                 traits.reads_per_segment)};
 }
 
-/// With all reads as they were given: phases that fade where waves cancel are no outliers.
+/// Uses all reads as given: phases that jump where waves cancel are not outliers.
 LocalizationResult locate_robustly(const std::vector<Method>& methods,
                                    const LocalizationProblem& given, double misfit, int threads,
                                    Diagnostics& diagnostics, Choice& choice) {
@@ -187,10 +190,10 @@ LocalizationResult locate_robustly(const std::vector<Method>& methods,
   return find_method(methods, choice.method).locate(given, threads, diagnostics);
 }
 
-/// Tags that are located through a known world unasked: each takes seconds.
+/// Largest number of tags located with a known world unless requested: each takes seconds.
 constexpr std::size_t kMostThroughWorld = 100;
 
-/// Whether the known world may be made use of, and there is one.
+/// Whether a known world is available and may be used.
 bool is_through_world(const AutomaticOptions& options, const LocalizationProblem& problem,
                       const DataTraits& traits, Diagnostics& diagnostics) {
   if (!options.known_world) return false;
@@ -208,7 +211,7 @@ bool is_through_world(const AutomaticOptions& options, const LocalizationProblem
   return false;
 }
 
-/// Of limits that were asked for, where the chosen method has its own.
+/// Warns of limits that were set although the chosen method has its own.
 void warn_of_limits(const Method& chosen, const EstimateLimits& limits, Diagnostics& diagnostics) {
   constexpr EstimateLimits kUsual;
   const auto warn = [&](const char* key, double limit, double usual) {
@@ -233,7 +236,7 @@ LocateFunction among(const std::vector<Method>& methods, const AutomaticOptions&
           result.why =
               "the world is known, and the effect of its reflections on the phases is traced "
               "(known_world: false locates without it)";
-          // Nothing is explained by a world that is another one.
+          // A wrong world explains nothing.
           if (!result.explained.empty()) return result;
         }
         LocalizationProblem cleaned;
@@ -289,19 +292,19 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
   });
   double all = 0.0;
   double reads = 0.0;
-  double stretches = 0.0;
+  double segments = 0.0;
   std::vector<double> misfits;
   std::vector<double> noises;
   add_scans(looks, traits);
   for (const Look& look : looks) {
     all += look.samples;
     reads += look.reads;
-    stretches += look.stretches;
+    segments += look.segments;
     if (look.misfit < 0.0) continue;
     misfits.push_back(look.misfit);
     noises.push_back(look.noise_m);
   }
-  traits.reads_a_stretch = stretches > 0.0 ? reads / stretches : 0.0;
+  traits.reads_per_segment = segments > 0.0 ? reads / segments : 0.0;
   traits.followed = all > 0.0 ? reads / all : 1.0;
   traits.misfit = lesser_median(std::move(misfits));
   traits.noise_m = lesser_median(std::move(noises));
@@ -310,7 +313,7 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
 
 Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
   if (!traits.has_reads) return {"ml", "too few reads of any tag to choose by"};
-  // By three or more antennas a law of distance places tags better than their neighbours do.
+  // With three or more antennas, a path-loss law locates tags better than neighbouring tags do.
   if (!traits.antennas_move && traits.antennas < 3 && reference_tags >= kFewestReferenceTags) {
     return {"landmarc",
             "at most two antennas, at rest, and there are reference tags to compare with"};
@@ -327,7 +330,7 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
                 "a short straight scan, and {:.0f} % of its phases are biased, as by reflections",
                 100.0 * traits.unexplained)};
   }
-  const bool is_short = traits.reads_a_stretch < kShortStretch;
+  const bool is_short = traits.reads_per_segment < kShortSegment;
   if ((is_short || traits.followed < kMost) && traits.bent >= kMost) {
     return {"robust", fmt::format("{:.0f} % of the phases are biased, as by reflections",
                                   100.0 * traits.bent)};
@@ -335,7 +338,7 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
   if (is_short) {
     return {"sar", fmt::format("the phase can be followed over {:.0f} reads on average only, with "
                                "{} channels: phasors are added up without unwrapping",
-                               traits.reads_a_stretch, traits.channels)};
+                               traits.reads_per_segment, traits.channels)};
   }
   if (traits.followed < kMost) {
     return {"sar", fmt::format("the phases of {:.0f} % of the reads are too noisy to be followed: "
@@ -364,7 +367,7 @@ const OptionTable<AutomaticOptions>& automatic_options() {
   return of;
 }
 
-/// Those of the settings that are its own.
+/// The settings that are its own.
 MethodSettings own_settings(const MethodSettings& settings) {
   const std::vector<SettingHelp> own = helps_of(automatic_options().table);
   MethodSettings some;

@@ -13,10 +13,11 @@
 namespace tagfield {
 namespace {
 
-/// Knots a time constant. The joint estimate, which is solved many times, has fewer.
+/// Knots per time constant. The joint estimate, which is solved many times, uses fewer.
 constexpr double kKnotsPerTimeConstant = 75.0;
 
-/// Antennas that moved while they read the tag, or whose offset is known: the others tell nothing.
+/// Antennas that moved while they read the tag, or whose offset is known: the others carry no
+/// information.
 std::vector<std::string> telling_antennas(const LocalizationProblem& truth,
                                           const SamplesOfTag& samples) {
   std::vector<std::string> antennas;
@@ -37,7 +38,7 @@ double noise_of(const BoundInput& input, const std::string& antenna) {
   return found->second * (input.truth.half_turns ? 2.0 : 1.0);
 }
 
-/// The wave number is scaled so that each antenna's noise becomes the system's, 1 rad.
+/// Scales wavenumbers so that each antenna's noise becomes that of the system, 1 rad.
 void scale_by_noise(const BoundInput& input, TagPhases& phases) {
   for (const TagPhases::Span& span : phases.spans) {
     phases.wavenumber.segment(span.begin, span.count) /= noise_of(input, span.antenna);
@@ -75,8 +76,8 @@ JointSystem system_at_truth(const BoundInput& input) {
   return system;
 }
 
-/// From covariances of the unknowns to those of places.
-void to_places(const JointSystem& system, Eigen::MatrixXd& covariance) {
+/// Converts covariances of the unknowns to those of positions.
+void to_positions(const JointSystem& system, Eigen::MatrixXd& covariance) {
   std::vector<Eigen::Matrix3d> J;
   for (std::size_t i = 0; i < system.tags.size(); ++i) {
     const JointTag& tag = system.tags[i];
@@ -92,7 +93,7 @@ void to_places(const JointSystem& system, Eigen::MatrixXd& covariance) {
   }
 }
 
-/// Of all tags' unknowns; 0 between tags where nothing is told of that.
+/// Covariance of all tags' unknowns; 0 between tags if cross-covariances are not available.
 Eigen::MatrixXd whole(const JointCovariance& covariance) {
   if (covariance.of_all.size() > 0) return covariance.of_all;
   const auto tags = static_cast<Eigen::Index>(covariance.of_tag.size());
@@ -107,7 +108,7 @@ Bounds bounds_of(const JointSystem& system) {
   Bounds bounds;
   for (const JointTag& tag : system.tags) bounds.tags.push_back(tag.id);
   bounds.covariance = whole(covariance_of(system, 1));
-  to_places(system, bounds.covariance);
+  to_positions(system, bounds.covariance);
   return bounds;
 }
 

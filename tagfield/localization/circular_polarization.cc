@@ -17,10 +17,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Misfits that differ by less, in units of the noise of independent reads, are not told apart.
+/// Misfits that differ by less, in units of the noise of independent reads, are not distinguished.
 constexpr double kAsGood = 9.0;
 
-/// The tag's samples without their turns.
+/// The tag's samples with the phase rotations removed.
 SamplesOfTag turned_back(const LocalizationProblem& problem, const SamplesOfTag& given,
                          const Vector3d& p_WT, const Vector3d& axis_W) {
   SamplesOfTag samples = given;
@@ -68,7 +68,7 @@ std::optional<PolarizationAllowance> allowance_of(const LocalizationProblem& pro
   }
   allowance.added = added_by_wire(*best);
   allowance.samples = turned_back(problem, problem.samples.at(estimate.tag),
-                                  to_place(reads.height, fit.place), fit.axis_W);
+                                  to_position(reads.height, fit.place), fit.axis_W);
   return allowance;
 }
 

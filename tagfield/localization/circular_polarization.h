@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the phase of a circularly polarized antenna adds on the way to a tag with one wire: it
-/// turns with the direction in which the tag is seen, by where the wire points, which nobody knows.
+/// Phase rotation between a circularly polarized antenna and a linearly polarized tag (one wire):
+/// it depends on the direction to the tag and on the direction of its wire, which is unknown.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,31 +13,33 @@
 
 namespace tagfield {
 
-/// By how much the phase of a reply turns [rad, mod 2π]: −2 arg(E·e) of an antenna with crossed
-/// wires along its y and z axes (docs/antennas.md), looking as `R_WA` says, with the tag's wire
-/// along `axis_W`, seen in the direction `way_W`. Both of any length above 0.
+/// Phase rotation of a reply [rad, mod 2π]: −2 arg(E·e) for an antenna of orientation `R_WA` with
+/// crossed wires along its y and z axes (docs/antennas.md) and a tag in the direction `way_W` with
+/// its wire along `axis_W`. Both vectors may have any length above 0.
 double polarization_turn(Hand hand, const Eigen::Matrix3d& R_WA, const Eigen::Vector3d& way_W,
                          const Eigen::Vector3d& axis_W);
 
-/// What a tag's wire does to its phases, as far as those tell it.
+/// Effect of a tag's wire on its phases, as far as it can be estimated from them.
 struct PolarizationAllowance {
-  std::optional<SamplesOfTag> samples{};  ///< Without the turns, where they are known.
-  /// What the place is worse known for it, and what other directions of the wire that fit nearly as
-  /// well make of it: covariance in x and y [m²].
+  /// With the phase rotations removed, where they are known.
+  std::optional<SamplesOfTag> samples{};
+  /// Additional covariance of the position in x and y [m²], from the uncertainty of the wire's
+  /// direction and from other directions that fit nearly as well.
   Eigen::Matrix2d added = Eigen::Matrix2d::Zero();
 };
 
-/// By tag.
+/// Allowances by tag.
 using PolarizationAllowances = std::map<std::string, PolarizationAllowance>;
 
-/// For each tag of which `result` has a place, the wire's direction is fitted with the place near
-/// it and an offset for each antenna and channel, by least squares from directions all around.
-/// Nothing of tags for which two places fit, of antennas that are not in `problem.circular`, and of
-/// those whose orientation is not told (all poses are the identity).
+/// For each tag with a position in `result`, fits the wire's direction together with a position
+/// nearby and an offset for each antenna and channel, by least squares started from directions all
+/// around. Skips tags for which two positions fit, antennas that are not in `problem.circular`, and
+/// antennas without orientations (all rotations are the identity).
 PolarizationAllowances allow_for_polarization(const LocalizationProblem& problem,
                                               const LocalizationResult& result, int threads);
 
-/// Adds what allow_for_polarization() says to the result's covariances and judges anew.
+/// Adds the covariances from allow_for_polarization() to those of the result and updates the
+/// verdicts.
 void add_polarization_error(const PolarizationAllowances& allowances, const EstimateLimits& limits,
                             LocalizationResult& result);
 

@@ -16,7 +16,7 @@
 #include "tagfield/localization/at_rest.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
 #include "tagfield/localization/holograms/hologram.h"
-#include "tagfield/localization/holograms/stretches.h"
+#include "tagfield/localization/holograms/segments.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/poses/trajectory.h"
 
@@ -26,8 +26,8 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-/// Of a tag. Few reads tell a latency that is none now and then, or none where there is one: they
-/// only say whether to look with many.
+/// Reads per tag. With few reads a latency is now and then found where there is none, or missed:
+/// they only decide whether to search with many.
 constexpr std::size_t kFewReads = 400;
 constexpr std::size_t kManyReads = 3000;
 constexpr std::size_t kMostTags = 20;
@@ -35,16 +35,16 @@ constexpr double kMostTravel = 1.2;    ///< During the latency [m].
 constexpr double kMostLatency = 10.0;  ///< [s]
 constexpr double kSuspicious = 4.6;    ///< ln of 10².
 constexpr double kCertain = 9.2;       ///< ln of 10⁴.
-constexpr double kLeastSpeed = 1e-3;   ///< Below, no latency shows [m/s].
+constexpr double kLeastSpeed = 1e-3;   ///< Below this speed no latency is observable [m/s].
 
-/// A located tag that is asked.
+/// A located tag whose reads are used.
 struct Witness {
   TagPhases phases;
-  StretchedReads layout;  ///< About the place; its antennas are put where a latency has them.
+  SegmentedReads layout;  ///< About the position; its antennas are shifted according to a latency.
   Vector3d p_WT = Vector3d::Zero();
 };
 
-/// How far and how long antennas went while they read a tag, but for pauses.
+/// Distance and duration of the antennas' travel while they read a tag, without pauses.
 struct Travelled {
   double metres = 0.0;
   double seconds = 0.0;
@@ -71,14 +71,14 @@ bool have_tracks(const LocalizationProblem& problem, const TagPhases& phases) {
   });
 }
 
-/// Where the antenna of a read was `late_s` before its stamp [m].
+/// Position of a read's antenna `late_s` before the stamp [m].
 Vector3d antenna_before(const LocalizationProblem& problem, const std::string& antenna, Time stamp,
                         double late_s) {
   const Trajectory& track = problem.tracks.at(antenna).X_WA;
   return held_position_at(track, stamp - duration_from_seconds(late_s));
 }
 
-/// Puts the antennas of a layout where they were `late_s` before the reads' stamps.
+/// Moves the antennas of a layout to where they were `late_s` before the reads' stamps.
 void move_antennas(const LocalizationProblem& problem, double late_s, Witness& witness) {
   for (const TagPhases::Span& span : witness.phases.spans) {
     for (Index i = span.begin; i < span.begin + span.count; ++i) {
@@ -92,14 +92,14 @@ void move_antennas(const LocalizationProblem& problem, double late_s, Witness& w
   }
 }
 
-/// Travel of antennas during a latency, to its end, of a tag's reads in one direction.
+/// Displacement of the antennas during a latency, for a tag's reads in one direction of travel.
 struct Travel {
-  Vector3d sum = Vector3d::Zero();  ///< Level [m].
+  Vector3d sum = Vector3d::Zero();  ///< Horizontal [m].
   std::size_t reads = 0;
   [[nodiscard]] Vector3d mean() const { return sum / static_cast<double>(reads); }
 };
 
-/// By eighths of a circle: a tag is read on its way there and back.
+/// Octants: a tag may be read while passing in either direction.
 constexpr int kDirections = 8;
 using TravelByDirection = std::array<Travel, kDirections>;
 
@@ -125,7 +125,7 @@ TravelByDirection travels_of(const LocalizationProblem& problem, const SamplesOf
   return travels;
 }
 
-/// Likewise of a witness's reads, whose antennas have been moved.
+/// Overload for a witness whose antennas have been moved.
 TravelByDirection travels_of(const Witness& witness) {
   TravelByDirection travels;
   const TagPhases& phases = witness.phases;
@@ -137,8 +137,9 @@ TravelByDirection travels_of(const Witness& witness) {
   return travels;
 }
 
-/// Where a latency, to which the antennas have been moved, may move a tag's place to: against their
-/// travel in each direction in which a tenth of its reads were taken [m].
+/// Shifts of a tag's position that a latency, to which the antennas have been moved, may cause:
+/// opposite to their displacement in each direction in which at least a tenth of the reads were
+/// taken [m].
 std::vector<Vector3d> moves_of(const Witness& witness, double late_s) {
   if (late_s == 0.0) return {Vector3d::Zero()};
   const auto reads = static_cast<std::size_t>(witness.phases.size());
@@ -149,7 +150,7 @@ std::vector<Vector3d> moves_of(const Witness& witness, double late_s) {
   return moves;
 }
 
-/// How far the antennas went in the mean during a latency, while they read a tag [m].
+/// Mean displacement of the antennas during a latency, over the reads of a tag [m].
 double mean_travel(const LocalizationProblem& problem, const SamplesOfTag& samples, double late_s) {
   double sum = 0.0;
   std::size_t reads = 0;
@@ -161,11 +162,11 @@ double mean_travel(const LocalizationProblem& problem, const SamplesOfTag& sampl
 }
 
 struct LikelyMove {
-  Vector3d move = Vector3d::Zero();  ///< From the witness's place [m].
+  Vector3d move = Vector3d::Zero();  ///< From the witness's position [m].
   double log_likelihood = 0.0;
 };
 
-/// The likeliest of a square of places, so many steps to each side.
+/// The most likely position on a square grid with `steps` steps to each side.
 LikelyMove likeliest_about(const Witness& witness, const Vector3d& middle, int steps, double step) {
   std::vector<Vector3d> moves;
   for (int i = -steps; i <= steps; ++i) {
@@ -173,13 +174,14 @@ LikelyMove likeliest_about(const Witness& witness, const Vector3d& middle, int s
   }
   const std::vector<double> likelihoods =
       by_tiles(moves, [&](const Tile& x, const Tile& y, const Tile& z) {
-        return stretch_likelihood(witness.layout, kForPlaces, x, y, z);
+        return segment_likelihood(witness.layout, kForPlaces, x, y, z);
       });
   const auto best = std::max_element(likelihoods.begin(), likelihoods.end());
   return {moves[static_cast<std::size_t>(best - likelihoods.begin())], *best};
 }
 
-/// ln of the likelihood of the best place within 0.2 m of where the latency may move a witness's.
+/// ln of the likelihood of the best position within 0.2 m of where the latency may shift a
+/// witness's.
 double log_likelihood_of(const LocalizationProblem& problem, double late_s, Witness& witness) {
   move_antennas(problem, late_s, witness);
   LikelyMove best{Vector3d::Zero(), -std::numeric_limits<double>::infinity()};
@@ -201,7 +203,7 @@ std::optional<Witness> witness_of(const LocalizationProblem& problem,
   Witness witness{thinned(coherent_reads(problem, samples), reads), {}, p_WT};
   if (!have_tracks(problem, witness.phases)) return std::nullopt;
   const double wavelength = 2.0 * problem.multiple() * longest_cycle(witness.phases);
-  witness.layout = stretched_reads(witness.phases, wavelength, p_WT.z(), p_WT.head<2>());
+  witness.layout = segmented_reads(witness.phases, wavelength, p_WT.z(), p_WT.head<2>());
   return witness;
 }
 
@@ -218,7 +220,7 @@ std::vector<Witness> witnesses_of(const LocalizationProblem& problem, int thread
   return witnesses;
 }
 
-/// Latencies to look at, 0 first: antennas travel an eighth of a wavelength from one to the next.
+/// Latencies to be tried, 0 first: antennas travel an eighth of a wavelength from one to the next.
 std::vector<double> latencies_for(const LocalizationProblem& problem,
                                   const std::vector<Witness>& witnesses) {
   Travelled sum;
@@ -244,10 +246,11 @@ std::vector<double> latencies_for(const LocalizationProblem& problem,
 struct CommonLatency {
   double late_s = 0.0;
   double log_gain = 0.0;
-  std::size_t in_favour = 0;  ///< Witnesses.
+  std::size_t in_favour = 0;  ///< Number of witnesses.
 };
 
-/// The likeliest of `latencies`, the first of which is 0, by witnesses' log-likelihoods of each.
+/// The most likely of `latencies`, the first of which is 0, by the witnesses' log-likelihoods of
+/// each.
 CommonLatency likeliest_of(const std::vector<double>& latencies,
                            const std::vector<std::vector<double>>& of_witnesses) {
   CommonLatency best;
@@ -263,8 +266,8 @@ CommonLatency likeliest_of(const std::vector<double>& latencies,
   return best;
 }
 
-/// The latency that so many reads a tag tell [s]; none that is not likelier than none by
-/// `least_gain`.
+/// The most likely latency from `reads` reads per tag [s]; nullopt if its log-likelihood does not
+/// exceed that of no latency by `least_gain`.
 std::optional<double> latency_by(const LocalizationProblem& problem, int threads,
                                  const LocalizationResult& result, std::size_t reads,
                                  double least_gain) {

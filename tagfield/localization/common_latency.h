@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Whether the reads of all tags together say that their stamps are late against those of the
-/// poses.
+/// Detection, from the reads of all tags together, of a latency of their stamps relative to those
+/// of the poses.
 #pragma once
 
 #include "tagfield/localization/method.h"
 
 namespace tagfield {
 
-/// Refuses places that one latency of all reads puts elsewhere, by more than three times what they
-/// are expected to be off. The latency is that at which places near those found are likeliest
-/// (stretches.h), summed over the located tags whose phases leave slow errors; it must be likelier
-/// than none by more than chance makes it in one case of ten thousand, and with half of these tags.
-/// Amid reflections one tag's phases hardly tell it (at_rest.h). A warning says what it is.
-/// Latencies over which the antennas travel up to 1.2 m are looked for. Not of methods that correct
-/// poses.
+/// Refuses positions that a latency common to all reads would shift by more than three expected
+/// errors. The latency maximizes the likelihood of positions near those found (segments.h), summed
+/// over the located tags whose phases leave slow errors. It must be more likely than no latency by
+/// more than chance achieves in one case in ten thousand, and for at least half of these tags. Amid
+/// reflections the phases of a single tag hardly reveal a latency (at_rest.h). A warning reports
+/// it. The search covers latencies over which the antennas travel up to 1.2 m. Does not apply to
+/// methods that correct poses.
 void refuse_common_latency(const LocalizationProblem& problem, int threads,
                            LocalizationResult& result, Diagnostics& diagnostics);
 

@@ -17,12 +17,12 @@ namespace {
 constexpr double kLeastPower = 0.5;
 constexpr double kDeviations = 3.0;
 
-/// Of the phases' power at the place, in [0, 1].
+/// Share of the phases' power explained at the position, in [0, 1].
 double explained_power(const LocalizationProblem& problem, const TagEstimate& estimate) {
   const TagPhases phases = coherent_reads(problem, problem.samples.at(estimate.tag));
   if (phases.size() == 0) return 1.0;
   const HeightModel height = height_model(problem, estimate.tag, phases);
-  const PlaceVector place = to_unknowns(height, estimate.candidates.front().p_WT);
+  const PositionVector place = to_unknowns(height, estimate.candidates.front().p_WT);
   return std::pow(coherent_share(phases, height, place), 2);
 }
 
@@ -37,7 +37,7 @@ bool agree(const Candidate& one, const Candidate& other) {
          kDeviations * std::hypot(one.expected_error_m, other.expected_error_m);
 }
 
-/// The place is no better known than by who confirms it.
+/// Raises the uncertainty of the position to at least that of the confirming one.
 void take_doubt(const Candidate& by, Candidate& place) {
   const Eigen::Vector3d off = (by.p_WT - place.p_WT).cwiseProduct(Eigen::Vector3d(1.0, 1.0, 0.0));
   const double error = std::hypot(by.expected_error_m, off.norm());
@@ -46,7 +46,7 @@ void take_doubt(const Candidate& by, Candidate& place) {
   if (by.covariance) place.covariance = *by.covariance + off * off.transpose();
 }
 
-/// Numbers of the estimates in question.
+/// Indices of the estimates in question.
 std::vector<std::size_t> doubtful(const LocalizationProblem& problem,
                                   const LocalizationResult& result) {
   std::vector<std::size_t> numbers;
@@ -65,7 +65,7 @@ void refuse_unconfirmed(const LocalizationProblem& problem, int threads,
                         LocalizationResult& result) {
   const bool as_coherent = takes_way_as_coherent(result.method) ||
                            (result.method == "joint" && has_exact_poses(problem));
-  if (!as_coherent || told_pose_error(problem)) return;
+  if (!as_coherent || stated_pose_error(problem)) return;
   const std::vector<std::size_t> numbers = doubtful(problem, result);
   if (numbers.empty()) return;
   LocalizationProblem those = problem;

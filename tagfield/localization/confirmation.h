@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A second opinion on places that explain little of the phases.
+/// Confirmation, by a second method, of positions that explain little of the phases.
 #pragma once
 
 #include "tagfield/localization/method.h"
 
 namespace tagfield {
 
-/// Tags whose phases' power a located place explains by less than half, though no pose error is
-/// told that would: reflections do so, but so do reads of two tags and poses of another drive. They
-/// stay located only where stretches of the way by themselves (the method `robust`) locate them
-/// too, within three times what both are expected to be off, and are no better known than by those.
-/// For methods that take all of the way as coherent.
+/// Checks tags whose position explains less than half of the phases' power although no pose error
+/// was stated that could account for it. Reflections cause this, but so do reads of two tags and
+/// poses of another drive. Such tags stay located only if separate sections of the path (the method
+/// `robust`) locate them too, within three times their combined expected error, and their expected
+/// error is then at least that of `robust`. Applies to methods that treat the whole path as
+/// coherent.
 void refuse_unconfirmed(const LocalizationProblem& problem, int threads,
                         LocalizationResult& result);
 

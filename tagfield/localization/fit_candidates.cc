@@ -14,8 +14,8 @@ namespace tagfield {
 namespace {
 
 constexpr double kUnboundedVariance = 1e12;  // [m²]
-constexpr double kSameFit = 0.03;            ///< Fits nearer than this are one [m].
-constexpr std::size_t kMostCandidates = 8;   ///< Candidates of one tag.
+constexpr double kSameFit = 0.03;            ///< Fits nearer than this are the same [m].
+constexpr std::size_t kMostCandidates = 8;   ///< Maximum per tag.
 
 double mean_square_wavenumber(const TagPhases& phases) { return phases.wavenumber.square().mean(); }
 
@@ -32,9 +32,10 @@ std::vector<TagFit> distinct(std::vector<TagFit> fits) {
   return kept;
 }
 
-/// Greatest deviation from the mean over all reads of ∂r/∂s along `direction`.
+/// Half the spread over all reads of ∂r/∂s along `direction`; its largest magnitude if any offset
+/// is known.
 double range_rate_spread(const TagPhases& phases, const HeightModel& height, const TagFit& fit,
-                         const PlaceVector& direction) {
+                         const PositionVector& direction) {
   double low = 1e9;
   double high = -1e9;
   const bool any_known = std::any_of(phases.spans.begin(), phases.spans.end(),
@@ -50,7 +51,7 @@ double range_rate_spread(const TagPhases& phases, const HeightModel& height, con
 
 constexpr double kNeighbour = 0.35;  ///< Reads nearer in time than this are neighbours [s].
 
-/// Without the rows of a known height.
+/// Sets the rows and columns of a known height to 0.
 Eigen::Matrix3d of_unknowns(const HeightModel& height, Eigen::Matrix3d covariance) {
   if (height.unknowns() == 3) return covariance;
   covariance.row(2).setZero();
@@ -58,7 +59,7 @@ Eigen::Matrix3d of_unknowns(const HeightModel& height, Eigen::Matrix3d covarianc
   return covariance;
 }
 
-/// None where the matrix has no inverse, or none that is positive.
+/// nullopt if the matrix is singular or its inverse is not positive.
 std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix3d& normal) {
   bool is_regular = false;
   Eigen::Matrix3d inverse;
@@ -68,8 +69,8 @@ std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix3d& normal) {
   return inverse;
 }
 
-/// What each read contributes to the right side of the normal equations for a metre that the
-/// antenna is off in x, and in y: columns k² g̃ u_x and k² g̃ u_y.
+/// Contribution of each read to the right-hand side of the normal equations per metre of antenna
+/// error in x and in y: columns k² g̃ u_x and k² g̃ u_y.
 struct Pull {
   double time_s = 0.0;
   Eigen::Matrix<double, 3, 2> by_axis;
@@ -99,8 +100,8 @@ std::vector<Pull> pulls_of(const TagPhases& phases, const HeightModel& height, c
   return pulls;
 }
 
-/// Σ over all pairs of reads of their pulls' products, by the correlation of the errors between
-/// them; in one pass, as the correlation is exponential.
+/// Σ over all pairs of reads of the products of their pulls, weighted by the correlation of their
+/// errors; in one pass, as the correlation is exponential.
 Eigen::Matrix3d scatter_of(const std::vector<Pull>& pulls, const PoseErrorModel& model) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 3, 2> before = Eigen::Matrix<double, 3, 2>::Zero();
@@ -141,7 +142,7 @@ Eigen::Matrix3d honest_covariance(const TagPhases& phases, const HeightModel& he
   if (!inverse) return covariance_of(phases, height, fit);
   const Eigen::ArrayXd errors = residuals_of(phases, height, fit);
   const std::vector<double> differences = neighbour_differences(phases, errors);
-  // Of reads far apart residuals don't tell what is noise and what the poses': all may be noise.
+  // For reads far apart residuals don't separate noise from pose errors: all may be noise.
   const double noise =
       differences.empty()
           ? std::sqrt(residual_variance(phases.spans, errors) * mean_square_wavenumber(phases))
@@ -162,13 +163,13 @@ Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height
   return of_unknowns(height, noise * inverse_of(normal).value_or(anything));
 }
 
-Candidate make_candidate(const HeightModel& height, const PlaceVector& unknowns,
+Candidate make_candidate(const HeightModel& height, const PositionVector& unknowns,
                          const Eigen::Matrix3d& covariance, double rms_m) {
   constexpr double kMostError = 1e6;  // [m]
   Candidate candidate;
-  candidate.p_WT = to_place(height, unknowns);
+  candidate.p_WT = to_position(height, unknowns);
   candidate.rms_m = rms_m;
-  candidate.covariance = to_place_covariance(height, unknowns, covariance);
+  candidate.covariance = to_position_covariance(height, unknowns, covariance);
   candidate.expected_error_m =
       std::min(std::sqrt(covariance.topLeftCorner<2, 2>().trace()), kMostError);
   return candidate;
@@ -194,14 +195,14 @@ std::vector<Candidate> make_candidates(const TagPhases& phases, const HeightMode
   return candidates;
 }
 
-std::vector<PlaceVector> spread_starts(const TagPhases& phases, const HeightModel& height,
-                                       const TagFit& fit, const Eigen::Matrix3d& covariance) {
+std::vector<PositionVector> spread_starts(const TagPhases& phases, const HeightModel& height,
+                                          const TagFit& fit, const Eigen::Matrix3d& covariance) {
   constexpr double kDeviations = 3.0;
   constexpr int kMostSteps = 40;
   constexpr double kFarthest = 2.0;  // [m]
-  std::vector<PlaceVector> starts{fit.unknowns};
+  std::vector<PositionVector> starts{fit.unknowns};
   const SymmetricEigen<3> axes = symmetric_eigen(covariance);
-  const PlaceVector direction = axes.vectors.col(2);
+  const PositionVector direction = axes.vectors.col(2);
   const double reach = std::min(kDeviations * std::sqrt(std::max(axes.values[2], 0.0)), kFarthest);
   const double eighth = longest_cycle(phases) / 4.0;  // A cycle is half a wavelength.
   const double step = eighth / std::max(range_rate_spread(phases, height, fit, direction), 1e-6);

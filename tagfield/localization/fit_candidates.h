@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// From fits of one tag to candidates: how uncertain each is, and which can't be told apart.
+/// Conversion of one tag's fits to candidates: the uncertainty of each, and which can't be
+/// distinguished.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,37 +18,39 @@ namespace tagfield {
 Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height,
                               const TagFit& fit);
 
-/// Covariance of the unknowns with the pose error's model, where the phases tell it: N⁻¹ (σφ² N +
-/// S) N⁻¹, with the phase noise σφ from neighbouring residuals, or all of them where none are
-/// neighbours, and S what the Ornstein-Uhlenbeck error of the antenna's places adds to the normal
-/// equations' right side. Else covariance_of().
+/// Covariance of the unknowns that includes the pose error, if the phases have a model of that:
+/// N⁻¹(σφ²N + S)N⁻¹, with the phase noise σφ from differences of neighbouring residuals (from all
+/// residuals if none are neighbours), and S the covariance that the Ornstein-Uhlenbeck error of the
+/// antenna's position adds to the right-hand side of the normal equations. Otherwise
+/// covariance_of().
 Eigen::Matrix3d honest_covariance(const TagPhases& phases, const HeightModel& height,
                                   const TagFit& fit);
 
-/// Magnitudes of the differences [rad] between residuals [m] of neighbouring reads, less than 0.35
-/// s apart, which slow errors leave alone.
+/// Absolute differences [rad] between the residuals [m] of neighbouring reads, less than 0.35 s
+/// apart; slow errors hardly affect them.
 std::vector<double> neighbour_differences(const TagPhases& phases, const Eigen::ArrayXd& errors);
 
-/// Phase noise [rad] by the median of such differences, which must not be empty: of normal noise
-/// the median magnitude is 0.6745 √2 σ.
+/// Phase noise [rad] from the median of such differences, which must not be empty: for normal noise
+/// their median is 0.6745 √2 σ.
 double noise_of_differences(std::vector<double> differences);
 
 /// A candidate at `unknowns` with their covariance and the misfit `rms_m`.
-Candidate make_candidate(const HeightModel& height, const PlaceVector& unknowns,
+Candidate make_candidate(const HeightModel& height, const PositionVector& unknowns,
                          const Eigen::Matrix3d& covariance, double rms_m);
 
 /// A candidate of a fit, with its honest_covariance().
 Candidate make_candidate(const TagPhases& phases, const HeightModel& height, const TagFit& fit);
 
-/// The best fit and those that the data can't tell from it (tells_apart()), best first. `fits` must
-/// not be empty.
+/// The best fit and those that the data can't distinguish from it (tells_apart()), best first.
+/// `fits` must not be empty.
 std::vector<Candidate> make_candidates(const TagPhases& phases, const HeightModel& height,
                                        std::vector<TagFit> fits);
 
-/// Places along the direction in which `fit` is least certain, three deviations far and so close
-/// together that ranges change by at most an eighth of a wavelength between them: the minima of a
-/// misfit known but for whole cycles lie among them. The fit's own place comes first; at most 81.
-std::vector<PlaceVector> spread_starts(const TagPhases& phases, const HeightModel& height,
-                                       const TagFit& fit, const Eigen::Matrix3d& covariance);
+/// Starting points along the direction in which `fit` is least certain, up to three standard
+/// deviations away and so closely spaced that ranges change by at most an eighth of a wavelength
+/// between them, so that the local minima of the wrapped misfit lie among them. The fit itself
+/// comes first; at most 81.
+std::vector<PositionVector> spread_starts(const TagPhases& phases, const HeightModel& height,
+                                          const TagFit& fit, const Eigen::Matrix3d& covariance);
 
 }  // namespace tagfield

@@ -10,9 +10,9 @@ namespace {
 
 constexpr int kFewest = 100;
 constexpr double kClearly = 0.1;
-/// Where phases say nothing, a sum of n such differences strays by √n or so.
+/// For random phases, a sum of n such differences deviates by about √n.
 constexpr double kChance = 2.5;
-/// Part of a wavelength that turns the phase by π/4.
+/// Share of a wavelength that changes the phase by π/4.
 constexpr double kShortStep = 1.0 / 16.0;
 
 struct Means {

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Phases that are known but for half a turn: many readers report φ or φ + π by chance.
+/// Phases with a π ambiguity (known modulo π): many readers report φ or φ + π at random.
 #pragma once
 
 #include "tagfield/localization/problem.h"
 
 namespace tagfield {
 
-/// Whether phases jump by half turns: between reads of a tag on one carrier whose antenna moved
-/// less than λ/16 in between, so that the phase turned by less than π/4, cos 2Δφ is greater in the
-/// mean than cos Δφ, clearly beyond chance. False where fewer than 100 such pairs tell it.
+/// Whether phases jump by π. Compares pairs of consecutive reads of a tag on one carrier between
+/// which the antenna moved less than λ/16, so that the phase changed by less than π/4: true if the
+/// mean of cos 2Δφ exceeds that of cos Δφ by clearly more than chance. False if there are fewer
+/// than 100 such pairs.
 bool has_half_turns(const SamplesByTag& samples);
 
-/// The same samples with phases that half turns leave alone: twice the phase, as of twice the
-/// carrier. All that is done with phase and wavelength thereafter is right, in steps half as long.
+/// Makes phases independent of the π ambiguity: doubles the phase and the carrier frequency. All
+/// later computations with phase and wavelength remain valid, at half the wavelength.
 void double_phases(SamplesByTag& samples);
 
 }  // namespace tagfield

@@ -8,7 +8,7 @@ namespace {
 
 /// Antennas at heights that differ by less than this are at one height [m].
 constexpr double kLevel = 0.01;
-/// Planes that are searched where the height is unknown.
+/// Number of planes searched if the height is unknown.
 constexpr int kPlanes = 4;
 constexpr double kPlanesApart = 0.7;  ///< [m]
 
@@ -38,7 +38,7 @@ std::vector<double> heights_to_search(const HeightModel& height) {
   return heights;
 }
 
-PlaceVector to_unknowns(const HeightModel& height, const Eigen::Vector3d& p_WT) {
+PositionVector to_unknowns(const HeightModel& height, const Eigen::Vector3d& p_WT) {
   const double up = p_WT.z() - height.z;
   switch (height.kind) {
     case HeightModel::Kind::kKnown:
@@ -51,7 +51,7 @@ PlaceVector to_unknowns(const HeightModel& height, const Eigen::Vector3d& p_WT) 
   return p_WT;
 }
 
-Eigen::Vector3d to_place(const HeightModel& height, const PlaceVector& unknowns) {
+Eigen::Vector3d to_position(const HeightModel& height, const PositionVector& unknowns) {
   double z = height.z;
   if (height.kind == HeightModel::Kind::kLevel) {
     z += height.side * std::sqrt(std::max(unknowns[2], 0.0));
@@ -60,7 +60,7 @@ Eigen::Vector3d to_place(const HeightModel& height, const PlaceVector& unknowns)
   return {unknowns[0], unknowns[1], z};
 }
 
-Eigen::Matrix3d place_jacobian(const HeightModel& height, const PlaceVector& unknowns,
+Eigen::Matrix3d place_jacobian(const HeightModel& height, const PositionVector& unknowns,
                                double variance_q) {
   Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
   if (height.kind == HeightModel::Kind::kKnown) J(2, 2) = 0.0;
@@ -72,8 +72,8 @@ Eigen::Matrix3d place_jacobian(const HeightModel& height, const PlaceVector& unk
   return J;
 }
 
-Eigen::Matrix3d to_place_covariance(const HeightModel& height, const PlaceVector& unknowns,
-                                    const Eigen::Matrix3d& covariance) {
+Eigen::Matrix3d to_position_covariance(const HeightModel& height, const PositionVector& unknowns,
+                                       const Eigen::Matrix3d& covariance) {
   const Eigen::Matrix3d J = place_jacobian(height, unknowns, covariance(2, 2));
   return J * covariance * J.transpose();
 }

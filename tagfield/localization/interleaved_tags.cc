@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tagfield/localization/each_place.h"
+#include "tagfield/localization/each_position.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/tag_fit.h"
@@ -26,7 +26,7 @@ double travel_between(const TagPhases& phases, Eigen::Index i, Eigen::Index j) {
                     phases.z[i] - phases.z[j]);
 }
 
-/// Adds the triple of reads `i` to `i` + 2 with these errors [m].
+/// Counts the triple of reads `i` to `i` + 2 with these errors [m].
 void add(const TagPhases& phases, const TagPhases::Span& span, const Eigen::ArrayXd& errors,
          Eigen::Index i, PhaseTriples& triples) {
   const auto angle = [&](Eigen::Index j, Eigen::Index k) {
@@ -49,7 +49,7 @@ bool are_of_two_tags(const PhaseTriples& triples) {
 }  // namespace
 
 PhaseTriples phase_triples(const TagPhases& phases, const HeightModel& height,
-                           const PlaceVector& place) {
+                           const PositionVector& place) {
   const Eigen::ArrayXd errors =
       residuals_of(phases, height, {place, offsets_at(phases, height, place), 0.0});
   PhaseTriples triples;
@@ -63,11 +63,11 @@ PhaseTriples phase_triples(const TagPhases& phases, const HeightModel& height,
 }
 
 void refuse_interleaved_tags(const LocalizationProblem& problem, LocalizationResult& result) {
-  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+  for_each_position(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     const TagPhases phases = coherent_reads(problem, samples);
     if (phases.size() == 0) return;
     const HeightModel height = height_model(problem, estimate.tag, phases);
-    const PlaceVector place = to_unknowns(height, estimate.candidates.front().p_WT);
+    const PositionVector place = to_unknowns(height, estimate.candidates.front().p_WT);
     if (!are_of_two_tags(phase_triples(phases, height, place))) return;
     estimate = not_located(
         std::move(estimate),

@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-/// Largest extent of any of the antennas, in all and seen from above [m].
+/// Largest extent of any antenna's positions, in space and seen from above [m].
 struct Extent {
   double whole = 0.0;
   double level = 0.0;
@@ -36,7 +36,7 @@ Extent largest_extent(const SamplesOfTag& samples) {
   return largest;
 }
 
-/// Why the best candidate is no answer; empty if it is.
+/// Why the best candidate is not acceptable; empty if it is.
 std::string doubt(const EstimateLimits& limits, const Candidate& best) {
   if (best.rms_m > limits.max_rms_m) {
     return fmt::format("the phase does not fit a tag at rest: misfit {:.3f} m, limit {:.3f} m",
@@ -61,7 +61,7 @@ std::size_t count_reads(const SamplesOfTag& samples) {
   return count;
 }
 
-std::string why_hopeless(const SamplesOfTag& samples) {
+std::string why_not_locatable(const SamplesOfTag& samples) {
   const std::size_t reads = count_reads(samples);
   const Extent extent = largest_extent(samples);
   if (reads == 0) return "no reads that have an antenna pose and a phase";

@@ -32,12 +32,12 @@
 namespace tagfield {
 namespace {
 
-WayLine way_of(const SamplesOfTag& samples) {
+PathLine way_of(const SamplesOfTag& samples) {
   std::vector<Eigen::Vector2d> places;
   for (const auto& [antenna, series] : samples) {
     for (const PhaseSample& sample : series) places.emplace_back(sample.p_WA.head<2>());
   }
-  return way_line(places);
+  return path_line(places);
 }
 
 void keep_within_area(const LocalizationProblem& problem, std::vector<TagEstimate>& estimates) {
@@ -75,7 +75,8 @@ bool is_by_phase(const std::string& method) {
 
 namespace {
 
-/// With what places are held against: the samples less what the method's model explains.
+/// The problem against which positions are checked: samples without what the method's model
+/// explains.
 LocalizationProblem less_explained(const LocalizationProblem& problem,
                                    const LocalizationResult& result) {
   LocalizationProblem less = problem;
@@ -83,13 +84,13 @@ LocalizationProblem less_explained(const LocalizationProblem& problem,
   return less;
 }
 
-/// What no method may claim is refused.
+/// Refuses what no method may claim.
 LocalizationResult held_against(const LocalizationProblem& problem, LocalizationResult result,
                                 int threads, Diagnostics& diagnostics) {
   if (is_by_phase(result.method) && !problem.has_phases) {
     refuse_without_phases(problem, result);
   } else if (is_by_phase(result.method)) {
-    drop_places_behind(problem, result);
+    drop_candidates_behind(problem, result);
     refuse_chance(problem, result);
     refuse_mixtures(problem, result);
     refuse_unconfirmed(problem, threads, result);
@@ -117,7 +118,7 @@ LocalizationResult checked(const LocalizationProblem& problem, LocalizationResul
   return held_against(less, std::move(result), threads, diagnostics);
 }
 
-/// Whether a method estimates the poses' error where nothing is said of it.
+/// Whether a method estimates the pose error if none is stated.
 bool learns_pose_error(const std::string& method) {
   return method == "joint" || method == "multipath";
 }
@@ -128,8 +129,8 @@ bool has_located(const LocalizationProblem& problem, const LocalizationResult& r
   });
 }
 
-/// Places by strengths are so much worse than poses that it does not matter there; by phase nothing
-/// is located where no antenna moved (why_hopeless()).
+/// Positions by RSSI are so much worse than poses that the pose error does not matter; by phase
+/// nothing is located if no antenna moved (why_not_locatable()).
 void warn_of_unknown_pose_error(const LocalizationProblem& problem,
                                 const LocalizationResult& result, Diagnostics& diagnostics) {
   if (problem.pose_error || !is_by_phase(result.method) || learns_pose_error(result.method)) return;
@@ -150,10 +151,11 @@ LocalizationResult locate_problem(const Method& method, const LocalizationProble
   if (problem.circular.empty() || !problem.has_phases) {
     return checked(problem, method.locate(problem, threads, diagnostics), threads, diagnostics);
   }
-  // A place by the phases as they are tells how tags' wires turn them.
+  // A first position from the uncorrected phases is needed to estimate how the tags' wires rotate
+  // them.
   Diagnostics of_first;
   LocalizationResult result = method.locate(problem, threads, of_first);
-  // Traced replies have their turns already.
+  // Traced replies already include these rotations.
   const bool is_blind = is_by_phase(result.method) && result.explained.empty();
   const PolarizationAllowances allowances =
       is_blind ? allow_for_polarization(problem, result, threads) : PolarizationAllowances{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The door of this room: reads and antenna poses in, an estimate for each tag out, by any method.
-/// Knows nothing of where the tags really are.
+/// Entry point of this module: takes reads and antenna poses and returns an estimate for each tag,
+/// by any method. The true positions of the tags are not available to it.
 #pragma once
 
 #include <string>
@@ -15,31 +15,31 @@
 
 namespace tagfield {
 
-/// All methods that come with Tagfield, in the order in which people are told of them.
+/// All methods that come with Tagfield, in the order in which they are listed for users.
 std::vector<Method> built_in_methods();
 
-/// Whether a method goes by phases, so that without them it locates nothing: of those that come
-/// with Tagfield; false of one's own.
+/// Whether a built-in method relies on phases, so that it locates nothing without them; false for
+/// user-defined methods.
 bool is_by_phase(const std::string& method);
 
 struct LocalizationOptions {
   std::string method = "hyperbola";
-  MethodSettings settings;  ///< Of which the method takes those that it has.
+  MethodSettings settings;  ///< The method uses those that it has.
   KnownBeforehand known;
   int threads = 1;
-  std::vector<Method> methods = built_in_methods();  ///< To which one's own can be added.
-  OnLocating on_locating{};                          ///< Or null.
+  std::vector<Method> methods = built_in_methods();  ///< User-defined ones can be added.
+  OnLocating on_locating{};                          ///< May be null.
 };
 
-/// Runs a method and holds what it says against the phases once more: places that chance explains
-/// as well, that a phase of the other sign does, or that antennas would have to look away from are
-/// taken back (plausibility.h, aim.h), as are those where no tag can be.
+/// Runs a method and checks its result against the phases once more. Withdraws positions that
+/// random phases, or phases of the opposite sign, would explain as well, positions behind the
+/// antennas (plausibility.h, aim.h), and positions outside the tag area.
 LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,
                                   int threads, Diagnostics& diagnostics);
 
-/// Locates every tag in `reads` by the method that `options` names. Reads may come in any order;
-/// poses give the antennas' believed places. Deterministic, whatever the number of threads. Throws
-/// Error on options out of their range.
+/// Locates every tag in `reads` by the method named in `options`. Reads may be in any order; poses
+/// are the antennas' believed poses. Deterministic, regardless of the number of threads. Throws
+/// Error if options are out of range.
 LocalizationResult locate_tags(const std::vector<TagRead>& reads,
                                const std::vector<AntennaPose>& poses,
                                const LocalizationOptions& options, Diagnostics& diagnostics);

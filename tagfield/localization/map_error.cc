@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-/// Covariance of a tag's shift there [m²].
+/// Covariance of the shift of a candidate [m²].
 Eigen::Matrix2d shift_at(const MapError& error, const Candidate& candidate) {
   const Eigen::Vector2d arm = candidate.p_WT.head<2>() - *error.origin_W;
   Eigen::Matrix<double, 2, 3> J;
@@ -23,7 +23,7 @@ void add_map_error(const LocalizationProblem& problem, LocalizationResult& resul
   if (result.method == "joint" && !problem.reference_tags.empty()) return;
   for (TagEstimate& estimate : result.estimates) {
     if (problem.reference_tags.count(estimate.tag) > 0 || estimate.candidates.empty()) continue;
-    // Some methods have wider limits of their own.
+    // Some methods have their own wider limits.
     const bool was_within =
         estimate.candidates.front().expected_error_m <= problem.limits.max_expected_error_m;
     for (Candidate& candidate : estimate.candidates) {

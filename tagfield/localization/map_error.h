@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the error of the map that poses are on adds to tags' errors.
+/// Contribution of the error of the map, in whose frame poses are given, to the tags' errors.
 #pragma once
 
 #include "tagfield/localization/method.h"
@@ -8,11 +8,11 @@
 
 namespace tagfield {
 
-/// Adds J Σ Jᵀ to the covariance of each place, Σ the map's error and J = ∂(x, y)/∂(shift, turn)
-/// there, and its trace to the square of the expected error: a shift and a turn of all poses move
-/// all tags alike, so no read tells of them. Places that thereby exceed the limit are no longer
-/// located. Nothing where no map's error is known, and with reference tags, by which `joint` holds
-/// the map where it is.
+/// Adds J Σ Jᵀ to the covariance of each position, with J = ∂(x, y)/∂(shift, rotation) there and Σ
+/// the covariance of the map error, and its trace to the square of the expected error. A shift and
+/// a rotation of all poses move all tags with them, so the reads can't reveal them. Tags whose
+/// expected error thereby exceeds the limit are no longer located. Does nothing if no map error is
+/// known, or for `joint` with reference tags, which anchor the map.
 void add_map_error(const LocalizationProblem& problem, LocalizationResult& result);
 
 }  // namespace tagfield

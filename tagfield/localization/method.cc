@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const std::vector<Method>& methods) {
 
 bool takes(const Method& method, const std::string& key) { return has_key(method.settings, key); }
 
-/// Why nobody takes it, or who does.
+/// Which methods accept the setting, or that none does.
 std::string who_takes(const std::string& key, const std::vector<Method>& all) {
   std::vector<Method> those;
   std::vector<std::string> keys;

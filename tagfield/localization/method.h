@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A localization method, as all who run one see it. Every method takes the same problem and gives
+/// Common interface of all localization methods. Every method takes the same problem and returns
 /// the same kind of result, so that they can be compared and exchanged.
 #pragma once
 
@@ -17,67 +17,67 @@
 
 namespace tagfield {
 
-/// What a method gives.
+/// Result of a method.
 struct LocalizationResult {
-  /// One for each tag in the problem's samples, in rising order of their IDs.
+  /// One for each tag in the problem's samples, in ascending order of IDs.
   std::vector<TagEstimate> estimates;
-  std::string method;  ///< Name of the method that made them; of "auto" the one that it chose.
-  std::string why;     ///< Why it was chosen, in one line; empty where it was asked for.
-  /// Antenna poses with their error taken out, of methods that estimate it.
+  std::string method;  ///< Name of the method that made them; for "auto" the one that it chose.
+  std::string why;     ///< Why it was chosen, in one line; empty if it was requested.
+  /// Antenna poses corrected by methods that estimate their error.
   std::vector<AntennaPose> corrected_poses;
-  /// Of tags whose phases a method's model explains beyond the distance, as by the paths of a known
-  /// world: their samples without that. Places are held against these.
+  /// Samples of tags whose phases a method's model explains by more than the distance, such as the
+  /// paths of a known world, with that part removed. Positions are checked against these.
   SamplesByTag explained{};
-  /// Where all tags were refused for what they have in common: the rms that each one's best place
-  /// left of its phases [m].
+  /// If all tags were refused for a common reason: for each tag, the rms phase residual at its best
+  /// position [m].
   std::vector<double> misfits_m{};
 };
 
-/// `threads`: on how many a method may work; its result must not depend on it.
+/// `threads`: how many a method may use; its result must not depend on it.
 using LocateFunction = std::function<LocalizationResult(const LocalizationProblem& problem,
                                                         int threads, Diagnostics& diagnostics)>;
 
-/// Settings of methods by key, as they stood in a file or on the command line.
+/// Settings of methods by key, as written in a file or on the command line.
 using MethodSettings = std::vector<RawParameter>;
 
 struct Method {
   std::string name;     ///< As on the command line: "hyperbola".
-  std::string summary;  ///< One line for people.
+  std::string summary;  ///< One line for users.
   LocateFunction locate;
-  std::vector<SettingHelp> settings{};  ///< That it takes.
-  /// How it locates with settings, all of which it takes; null where it takes none. Throws Error on
-  /// values out of their range.
+  std::vector<SettingHelp> settings{};  ///< Those that it accepts.
+  /// Returns the locate function for these settings, all of which it must accept; null if it
+  /// accepts none. Throws Error on values out of range.
   std::function<LocateFunction(const MethodSettings&)> with{};
-  /// What others make use of that may be known or asked for, and this one does not, by the keys of
-  /// a scenario's `localization`: "offset", "half_turns", "pose_error" and those of EstimateLimits.
+  /// Known or requested inputs that other methods use and this one ignores, by the keys of a
+  /// scenario's `localization`: "offset", "half_turns", "pose_error" and those of EstimateLimits.
   std::vector<std::string> ignores{};
 };
 
-/// The same, which makes no use of `keys`.
+/// The same method, marked as ignoring `keys`.
 Method ignoring(std::vector<std::string> keys, Method method);
 
-/// Whether none of the methods makes use of `key`.
+/// Whether all of the methods ignore `key`.
 bool all_ignore(const std::vector<Method>& methods, const std::string& key);
 
-/// The method with those of `settings` that it takes.
+/// The method with those of `settings` that it accepts.
 Method configured(Method method, const MethodSettings& settings);
 
-/// Throws Error "FILE:LINE: …" on a setting that none of the methods `used` takes, which says which
-/// of `all` do.
+/// Throws Error "FILE:LINE: …" on a setting that none of the methods `used` accepts; the message
+/// names those of `all` that do.
 void refuse_unused(const MethodSettings& settings, const std::vector<Method>& used,
                    const std::vector<Method>& all);
 
-/// The method of that name. Throws Error on an unknown one, with the nearest known.
+/// The method of that name. Throws Error on an unknown name, suggesting the nearest known one.
 Method find_method(const std::vector<Method>& methods, const std::string& name);
 
-/// Estimate of a reference tag: the place that was given.
+/// Estimate of a reference tag: its given position.
 TagEstimate reference_estimate(const std::string& tag, const Eigen::Vector3d& p_WT);
 
-/// Tells the problem's on_locating, if it has one.
+/// Reports progress to the problem's on_locating, if set.
 void tell(const LocalizationProblem& problem, const std::string& what, double share);
 
-/// Runs `locate` on each tag that is not a reference tag, in parallel; reference tags get their
-/// known place. For methods that take one tag at a time.
+/// Runs `locate` in parallel on each tag that is not a reference tag; reference tags get their
+/// known position. For methods that locate one tag at a time.
 std::vector<TagEstimate> locate_each(
     const LocalizationProblem& problem, int threads,
     const std::function<TagEstimate(const std::string& tag, const SamplesOfTag& samples)>& locate);
@@ -86,29 +86,29 @@ std::vector<TagEstimate> locate_each(
 using LocateTag = std::function<TagEstimate(const LocalizationProblem& problem,
                                             const std::string& tag, const SamplesOfTag& samples)>;
 
-/// A method without settings that takes one tag at a time.
+/// A method without settings that locates one tag at a time.
 Method one_by_one(const std::string& name, const std::string& summary, const LocateTag& locate);
 
-/// The door of a method that only makes estimates.
+/// Locate function of a method that only returns estimates.
 using LocateAll = std::function<std::vector<TagEstimate>(const LocalizationProblem&, int threads)>;
 LocateFunction named(const std::string& method, const LocateAll& locate);
 
-/// What a method has that takes settings: `table` has the keys of all that a user may want to set,
-/// `check`, if any, throws Error on options that don't go together.
+/// Options of a method with settings: `table` has the keys of all that a user may set; `check`, if
+/// any, throws Error on inconsistent options.
 template <class Options>
 struct OptionTable {
   std::vector<Setting<Options>> table;
   std::function<void(const Options&)> check{};
 };
 
-/// Throws Error on options that are out of their range or don't go together.
+/// Throws Error on options that are out of range or inconsistent.
 template <class Options>
 void check_options(const OptionTable<Options>& of, const Options& options) {
   check_settings(of.table, options);
   if (of.check) of.check(options);
 }
 
-/// `options` with what the settings say instead. Throws Error on values out of their range.
+/// `options` overridden by the settings. Throws Error on values out of range.
 template <class Options>
 Options changed_options(const OptionTable<Options>& of, Options options,
                         const MethodSettings& settings) {
@@ -121,12 +121,12 @@ Options changed_options(const OptionTable<Options>& of, Options options,
   return options;
 }
 
-/// How a method with options locates.
+/// Locate function of a method with options.
 template <class Options>
 using LocateWith = std::function<LocalizationResult(const LocalizationProblem&, int threads,
                                                     Diagnostics&, const Options&)>;
 
-/// A method with options. Throws Error on `options` out of their range.
+/// A method with options. Throws Error on `options` out of range.
 template <class Options>
 Method method_with(const std::string& name, const std::string& summary,
                    const OptionTable<Options>& table, const Options& options,
@@ -143,7 +143,7 @@ Method method_with(const std::string& name, const std::string& summary,
           }};
 }
 
-/// Likewise one that only makes estimates.
+/// Overload for a method that only returns estimates.
 template <class Options>
 Method method_with(const std::string& name, const std::string& summary,
                    const OptionTable<Options>& table, const Options& options,
@@ -158,7 +158,7 @@ Method method_with(const std::string& name, const std::string& summary,
   return method_with(name, summary, table, options, LocateWith<Options>(result));
 }
 
-/// Likewise one that takes one tag at a time.
+/// A method with options that locates one tag at a time.
 template <class Options>
 Method one_by_one(const std::string& name, const std::string& summary,
                   const OptionTable<Options>& table, const Options& options,

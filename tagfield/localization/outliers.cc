@@ -20,7 +20,7 @@ namespace {
 constexpr double kLeastSigma = 1e-3;  ///< [rad]
 constexpr double kMostOutliers = 0.2;
 
-/// Density of wrapped normal noise, of a deviation well under half a turn.
+/// Density of wrapped normal noise with a standard deviation well under π.
 Eigen::ArrayXd normal_density(const Eigen::ArrayXd& angles, double sigma) {
   return (-0.5 * (angles / sigma).square()).exp() / (sigma * std::sqrt(kTwoPi));
 }
@@ -37,14 +37,15 @@ double median_deviation(const Eigen::ArrayXd& angles) {
   return std::max(*half / 0.6745, kLeastSigma);
 }
 
-/// The brightest of the places found, climbed to; the search's own order is of coarser sums.
-PlaceVector brightest_of(const TagPhases& phases, const HeightModel& height,
-                         const std::vector<PlaceVector>& places) {
+/// The brightest of the positions found, after climbing to the maximum; the search ranks them by
+/// coarser sums.
+PositionVector brightest_of(const TagPhases& phases, const HeightModel& height,
+                            const std::vector<PositionVector>& places) {
   const std::vector<Aperture> whole = apertures(phases, kWholeAperture);
-  PlaceVector best = places.front();
+  PositionVector best = places.front();
   double most = -1.0;
-  for (const PlaceVector& place : places) {
-    const PlaceVector top = climb(phases, whole, height, place);
+  for (const PositionVector& place : places) {
+    const PositionVector top = climb(phases, whole, height, place);
     const double light = coherence(phases, whole, height, top);
     if (light > most) best = top;
     most = std::max(most, light);
@@ -54,16 +55,16 @@ PlaceVector brightest_of(const TagPhases& phases, const HeightModel& height,
 
 }  // namespace
 
-BrightestPlace brightest_place(const LocalizationProblem& problem, const std::string& tag,
-                               const SamplesOfTag& samples) {
-  BrightestPlace result;
-  if (!why_hopeless(samples).empty()) return result;
+HologramPeak hologram_peak(const LocalizationProblem& problem, const std::string& tag,
+                           const SamplesOfTag& samples) {
+  HologramPeak result;
+  if (!why_not_locatable(samples).empty()) return result;
   result.phases = coherent_reads(problem, samples);
   if (!too_few(result.phases).empty()) return result;
   const HeightModel height = height_model(problem, tag, result.phases);
-  const auto places = search_places(result.phases, height, SearchOptions{}, coherent_light());
+  const auto places = search_positions(result.phases, height, SearchOptions{}, coherent_light());
   if (places.empty()) return result;
-  const PlaceVector place = brightest_of(result.phases, height, places);
+  const PositionVector place = brightest_of(result.phases, height, places);
   const Eigen::ArrayXd errors =
       residuals_of(result.phases, height, {place, offsets_at(result.phases, height, place), 0.0});
   result.residuals_rad = errors * result.phases.wavenumber;
@@ -115,7 +116,7 @@ bool has_outliers(const OutlierMixture& mixture) {
 
 std::size_t remove_outliers(const LocalizationProblem& problem, const std::string& tag,
                             SamplesOfTag& samples) {
-  const BrightestPlace there = brightest_place(problem, tag, samples);
+  const HologramPeak there = hologram_peak(problem, tag, samples);
   if (there.residuals_rad.size() == 0) return 0;
   const OutlierMixture mixture =
       outlier_mixture(less_neighbours(there.phases, there.residuals_rad));

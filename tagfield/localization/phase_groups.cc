@@ -8,19 +8,19 @@
 #include <optional>
 
 #include "tagfield/base/units.h"
-#include "tagfield/localization/each_place.h"
+#include "tagfield/localization/each_position.h"
 #include "tagfield/localization/judgement.h"
 
 namespace tagfield {
 namespace {
 
 constexpr std::size_t kFewestOfChannel = 4;
-constexpr std::size_t kMostOfChannel = 24;  ///< More say no more, and take their square in time.
+constexpr std::size_t kMostOfChannel = 24;  ///< More add no information, and the cost is quadratic.
 constexpr std::size_t kFewestOfAll = 40;
-/// Phases of a single tag, with noise or at random, hardly reach a third of it.
+/// Phases of a single tag, noisy or random, hardly reach a third of this.
 constexpr double kGroups = 16.0;
 
-/// Σ of squares about the mean of any row of phases that lie beside each other on the circle.
+/// Sum of squares about the mean for any run of phases that are adjacent on the circle.
 class Arcs {
  public:
   explicit Arcs(std::vector<double> phases) : count_(phases.size()) {
@@ -34,7 +34,7 @@ class Arcs {
     }
   }
 
-  /// Of `length` phases from number `first` < count on.
+  /// For `length` phases from index `first` < count on.
   [[nodiscard]] double squares(std::size_t first, std::size_t length) const {
     const double sum = sums_[first + length] - sums_[first];
     const double squares = squares_[first + length] - squares_[first];
@@ -43,7 +43,7 @@ class Arcs {
 
  private:
   std::size_t count_;
-  std::vector<double> sums_, squares_;  ///< Of the first so many, over two turns.
+  std::vector<double> sums_, squares_;  ///< Cumulative, over two turns.
 };
 
 using PhasesByChannel = std::map<double, std::vector<double>>;
@@ -56,7 +56,7 @@ PhasesByChannel channels_of(const std::vector<PhaseSample>& series, double multi
   return channels;
 }
 
-/// Evenly over all, as tags may come one after another.
+/// Thins evenly, as tags may be read one after another.
 std::vector<double> thinned(const std::vector<double>& phases) {
   if (phases.size() <= kMostOfChannel) return phases;
   std::vector<double> few;
@@ -102,14 +102,14 @@ std::optional<double> group_ratio(const SamplesOfTag& samples, double multiple) 
   }
   if (reads < kFewestOfAll) return std::nullopt;
   const auto all = static_cast<double>(reads);
-  // Phases that agree to the last bit have no noise to go by: a step of a reader of 16 bits stands
-  // in.
+  // Identical phases have no noise to estimate: the quantization step of a 16-bit reader is used
+  // instead.
   constexpr double kLeast = 1e-8;
   return (of_one / (all - cells) + kLeast) / (of_two / (all - 2.0 * cells) + kLeast);
 }
 
 void refuse_groups(const LocalizationProblem& problem, LocalizationResult& result) {
-  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+  for_each_position(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     const double multiple = problem.half_turns ? 1.0 : 2.0;
     if (group_ratio(samples, multiple).value_or(0.0) < kGroups) return;
     estimate = not_located(std::move(estimate),

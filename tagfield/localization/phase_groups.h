@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Whether antennas at rest heard one tag at rest, or several under one EPC.
+/// Checks whether stationary antennas read a single tag at rest, or several under one EPC.
 #pragma once
 
 #include <cstddef>
@@ -12,25 +12,26 @@
 
 namespace tagfield {
 
-/// What phases of one antenna on one carrier scatter, as one group and as two.
+/// Scatter of the phases of one antenna on one carrier, as one group and as two.
 struct PhaseScatter {
-  double squares_of_one = 0.0;  ///< Σ of squares about the mean of the shortest arc [rad²],
-  double squares_of_two =
-      0.0;  ///< and about those of the best two arcs, of two reads each at least.
+  /// Sum of squares about the mean as one group [rad²].
+  double squares_of_one = 0.0;
+  /// Sum of squares about the means of the best two arcs, of at least two reads each [rad²].
+  double squares_of_two = 0.0;
   std::size_t reads = 0;
 };
 
-/// Of four phases [rad] or more.
+/// Scatter of at least four phases [rad].
 PhaseScatter phase_scatter(const std::vector<double>& phases_rad);
 
-/// Variance as one group over that as two, over all channels of the antennas that stood, of at
-/// least four reads each: 2 to 4 of one tag's noise, outliers among them, below 5 of random phases,
-/// and far more of two tags. None of fewer than 40 reads.
-/// Phases count times `multiple`.
+/// Ratio of the variance as one group to that as two, over all channels with at least four reads of
+/// the stationary antennas: 2 to 4 for the noise of one tag, including outliers, below 5 for random
+/// phases, and far more for two tags. nullopt for fewer than 40 reads. Phases are multiplied by
+/// `multiple`.
 std::optional<double> group_ratio(const SamplesOfTag& samples, double multiple = 1.0);
 
-/// Refuses tags whose phases at antennas at rest, known but for half turns, come in two groups:
-/// among those of two tags half turns may not have been noticed.
+/// Refuses tags whose phases at stationary antennas, taken modulo π, form two groups. They are
+/// always taken modulo π because a π ambiguity may go unnoticed among the phases of two tags.
 void refuse_groups(const LocalizationProblem& problem, LocalizationResult& result);
 
 }  // namespace tagfield

@@ -10,7 +10,8 @@
 namespace tagfield {
 namespace {
 
-/// Phase that one step adds to the one before it, the two being nearly equal in length.
+/// Whether the two steps between three samples on one carrier are nearly equal in length and
+/// together shorter than λ/2.
 bool is_even_triple(const PhaseSample& a, const PhaseSample& b, const PhaseSample& c) {
   const double first = (b.p_WA - a.p_WA).norm();
   const double second = (c.p_WA - b.p_WA).norm();

@@ -14,11 +14,11 @@
 namespace tagfield {
 namespace {
 
-/// An antenna that moved less than this [m] between two poses stood still between them, however
-/// long that took.
+/// An antenna that moved less than this [m] between two poses was stationary, however far apart
+/// they are in time.
 constexpr double kStillDistance = 0.01;
 
-/// Lower carriers [Hz] are none: some were given in MHz.
+/// Lower carriers [Hz] are invalid: some were given in MHz.
 constexpr double kLowestCarrier = 1e6;
 
 bool is_finite(const AntennaPose& pose) {
@@ -35,7 +35,7 @@ std::string range_words(Time first, Time last) {
   return fmt::format("from {:.3f} to {:.3f} s", to_seconds(first), to_seconds(last));
 }
 
-/// In order of time, the first of those with equal stamps kept; how many were dropped.
+/// Sorts by time, keeps the first of poses with equal stamps and returns how many were dropped.
 std::size_t sort_and_drop_repeats(std::vector<const AntennaPose*>& poses) {
   const std::size_t before = poses.size();
   std::stable_sort(poses.begin(), poses.end(),
@@ -49,7 +49,7 @@ using StampRanges = std::map<std::string, StampRange>;
 
 using StampsByAntenna = std::map<std::string, std::vector<Time>>;
 
-/// When each antenna had rows, but for those of a wrong clock.
+/// Range of each antenna's stamps, without those of a wrong clock.
 StampRanges ranges_of(StampsByAntenna&& stamps) {
   StampRanges ranges;
   for (auto& [antenna, of_antenna] : stamps) {
@@ -64,7 +64,7 @@ bool is_stray(const Row& row, const StampRanges& ranges) {
   return row.stamp < range.begin || row.stamp > range.end;
 }
 
-/// Warns of an antenna's rows that is_stray() finds. `what`: "reads" or "poses".
+/// Warns of the rows for which is_stray() holds. `what`: "reads" or "poses".
 void warn_of_strays(const StampsByAntenna& strays, const StampRanges& ranges, const char* what,
                     Diagnostics& diagnostics) {
   for (const auto& [antenna, stamps] : strays) {
@@ -77,7 +77,7 @@ void warn_of_strays(const StampsByAntenna& strays, const StampRanges& ranges, co
   }
 }
 
-/// Covariances count only where every pose has one.
+/// Covariances are used only if every pose has one.
 BelievedTrack track_of(const std::vector<const AntennaPose*>& poses) {
   BelievedTrack track;
   for (const AntennaPose* pose : poses) {
@@ -99,7 +99,7 @@ struct ReadCount {
 
 using Tracks = std::map<std::string, BelievedTrack>;
 
-/// That an antenna of reads has no poses at all, and whose there are.
+/// Message that an antenna with reads has no poses, suggesting a similar name.
 std::string no_poses(const std::string& antenna, const Tracks& tracks) {
   if (tracks.empty()) return "there are no poses";
   std::vector<std::string> names;
@@ -107,7 +107,7 @@ std::string no_poses(const std::string& antenna, const Tracks& tracks) {
   return "there are no poses of it" + suggestion(antenna, names);
 }
 
-/// Why reads of that antenna have no pose.
+/// Why reads of the antenna have no pose.
 std::string why_without_pose(const std::string& antenna, const ReadCount& count,
                              const Tracks& tracks, double max_pose_gap_s) {
   const auto track = tracks.find(antenna);
@@ -145,7 +145,7 @@ void warn_of_reads_left_out(const std::map<std::string, ReadCount>& counts, cons
   }
 }
 
-/// Brings one series into rising order of time, the first of equal stamps kept; how many were not.
+/// Sorts a series by time, keeps the first of equal stamps and returns how many were dropped.
 std::size_t put_in_order(std::vector<PhaseSample>& samples) {
   const std::size_t before = samples.size();
   std::stable_sort(samples.begin(), samples.end(),
@@ -155,7 +155,7 @@ std::size_t put_in_order(std::vector<PhaseSample>& samples) {
   return before - samples.size();
 }
 
-/// Whether phases are all one.
+/// Detects whether all phases are identical.
 class PhasesSeen {
  public:
   void add(double phase_rad) {
@@ -172,10 +172,11 @@ class PhasesSeen {
   bool differ_ = false;
 };
 
-/// What a first look at reads tells.
+/// Result of the first pass over the reads.
 struct FirstLook {
   StampRanges ranges;
-  std::map<std::string, std::map<std::string, std::size_t>> counts;  ///< By tag and antenna.
+  /// Number of reads by tag and antenna.
+  std::map<std::string, std::map<std::string, std::size_t>> counts;
   bool has_phases = true;
 };
 
@@ -280,7 +281,8 @@ JoinedReads join_reads_with_tracks(const EachRead& each_read,
       return;
     }
     std::vector<PhaseSample>& samples = of_tag[read.antenna];
-    // No more than there are: of many tags, room for more would take as much as the reads.
+    // Exactly the number of reads: with many tags, spare capacity would take as much memory as the
+    // reads.
     if (samples.empty()) samples.reserve(look.counts.at(read.tag).at(read.antenna));
     samples.push_back({read.stamp, wrap_to_two_pi(read.phase_rad), read.frequency_hz,
                        X_WA->translation, std::isfinite(read.rssi_dbm) ? read.rssi_dbm : kNoRssi});

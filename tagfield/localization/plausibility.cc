@@ -8,7 +8,7 @@
 #include <map>
 
 #include "tagfield/base/units.h"
-#include "tagfield/localization/each_place.h"
+#include "tagfield/localization/each_position.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/outliers.h"
@@ -19,7 +19,7 @@ namespace tagfield {
 namespace {
 
 constexpr double kMostChance = 1e-4;
-constexpr double kReach = 12.0;  ///< Places are looked for within this [m].
+constexpr double kReach = 12.0;  ///< Positions are searched within this range [m].
 
 /// ln E e^(λ·2|cos(θ/2)|) over all θ, by the midpoint rule.
 double log_mean_of_two(double lambda) {
@@ -32,8 +32,8 @@ double log_mean_of_two(double lambda) {
   return 2.0 * lambda + std::log(sum / kSteps);
 }
 
-/// ln E e^(λ|S|) of n waves of any phase; of Rayleigh's law with σ² = n/2 that is
-/// ln(1 + a √(π/2) e^(a²/2) (1 + erf(a/√2))), a = λσ.
+/// ln E e^(λ|S|) of n random phasors; for Rayleigh's distribution with σ² = n/2 that is ln(1 + a
+/// √(π/2) e^(a²/2) (1 + erf(a/√2))), a = λσ.
 double log_mean(double n, double lambda) {
   if (n < 1.5) return lambda * n;
   if (n < 2.5) return log_mean_of_two(lambda);
@@ -42,15 +42,15 @@ double log_mean(double n, double lambda) {
   return 0.5 * a * a + std::log(std::exp(-0.5 * a * a) + tail);
 }
 
-/// Different places within reach: λ/4 apart, phases have turned by up to half a turn.
+/// Number of different positions within reach: over λ/4, phases change by up to π.
 double places_within_reach(const TagPhases& phases) {
   const double width = 2.0 * kReach + std::max(phases.x.maxCoeff() - phases.x.minCoeff(),
                                                phases.y.maxCoeff() - phases.y.minCoeff());
   return std::pow(width / (0.5 * longest_cycle(phases)), 2);
 }
 
-double log_chance_at(const TagPhases& phases, const HeightModel& height, const PlaceVector& place,
-                     double length) {
+double log_chance_at(const TagPhases& phases, const HeightModel& height,
+                     const PositionVector& place, double length) {
   std::vector<double> reads;
   const std::vector<Aperture> pieces = apertures(phases, length);
   reads.reserve(pieces.size());
@@ -58,13 +58,13 @@ double log_chance_at(const TagPhases& phases, const HeightModel& height, const P
   return log_chance(reads, coherence(phases, pieces, height, place), places_within_reach(phases));
 }
 
-/// The least over apertures: pose errors and reflections spoil long ones.
+/// The least over several aperture lengths: pose errors and reflections spoil long ones.
 double least_log_chance(const LocalizationProblem& problem, const std::string& tag,
                         const SamplesOfTag& samples, const Eigen::Vector3d& p_WT) {
   const TagPhases phases = coherent_reads(problem, samples);
   if (phases.size() == 0) return 0.0;
   const HeightModel height = height_model(problem, tag, phases);
-  const PlaceVector place = to_unknowns(height, p_WT);
+  const PositionVector place = to_unknowns(height, p_WT);
   const double lambda = 2.0 * longest_cycle(phases);
   double least = 0.0;
   for (const double length : {1.5 * lambda, 4.5 * lambda, 13.5 * lambda, kWholeAperture}) {
@@ -73,10 +73,10 @@ double least_log_chance(const LocalizationProblem& problem, const std::string& t
   return least;
 }
 
-/// How many waves add up where most of them do, of all.
+/// Share of phasors that add up at the position where most of them do.
 double best_share(const LocalizationProblem& problem, const std::string& tag,
                   const SamplesOfTag& samples) {
-  const BrightestPlace there = brightest_place(problem, tag, samples);
+  const HologramPeak there = hologram_peak(problem, tag, samples);
   return there.residuals_rad.size() == 0 ? 0.0 : there.residuals_rad.cos().mean();
 }
 
@@ -87,16 +87,16 @@ SamplesOfTag with_other_sign(SamplesOfTag samples) {
   return samples;
 }
 
-/// Tags with phases to tell the sign by: the first few that might be located.
-std::vector<const SamplesByTag::value_type*> telling_tags(const LocalizationProblem& problem) {
+/// Tags used to determine the sign: the first few that might be located.
+std::vector<const SamplesByTag::value_type*> informative_tags(const LocalizationProblem& problem) {
   constexpr std::size_t kEnough = 3;
-  std::vector<const SamplesByTag::value_type*> telling;
+  std::vector<const SamplesByTag::value_type*> informative;
   for (const auto& entry : problem.samples) {
     if (problem.reference_tags.count(entry.first) > 0) continue;
-    if (why_hopeless(entry.second).empty()) telling.push_back(&entry);
-    if (telling.size() == kEnough) break;
+    if (why_not_locatable(entry.second).empty()) informative.push_back(&entry);
+    if (informative.size() == kEnough) break;
   }
-  return telling;
+  return informative;
 }
 
 void refuse(TagEstimate& estimate, const std::string& why) {
@@ -111,7 +111,7 @@ std::vector<Eigen::Vector2d> places_of(const SamplesOfTag& samples) {
   return places;
 }
 
-/// By the residuals of the phases at a place [rad].
+/// Refuses the estimate if the phase residuals at a position [rad] are such a mixture.
 void refuse_mixture(const Eigen::ArrayXd& angles, TagEstimate& estimate) {
   constexpr double kMostElsewhere = 0.25;
   constexpr double kFits = 0.5;  // [rad]
@@ -124,29 +124,30 @@ void refuse_mixture(const Eigen::ArrayXd& angles, TagEstimate& estimate) {
   }
 }
 
-constexpr double kNearLine = 0.5;  ///< Of a straight way [m].
+constexpr double kNearLine = 0.5;  ///< Distance from the line of a straight path [m].
 
-Eigen::Vector2d across(const WayLine& way) { return {-way.along.y(), way.along.x()}; }
+Eigen::Vector2d across(const PathLine& way) { return {-way.along.y(), way.along.x()}; }
 
-bool is_straight(const std::vector<Eigen::Vector2d>& places, const WayLine& way) {
+bool is_straight(const std::vector<Eigen::Vector2d>& places, const PathLine& way) {
   constexpr double kStraight = 0.05;  // [m]
   return std::all_of(places.begin(), places.end(), [&](const auto& place) {
     return std::abs(across(way).dot(place - way.middle)) < kStraight;
   });
 }
 
-/// Mean squares about the best place over all about it, each as likely as the phases say. Ranges
-/// hardly change across the line there, so that no covariance by slopes tells it.
+/// Mean square deviation [m²] from the best position over a grid around it, weighted by likelihood.
+/// Ranges hardly change across the line there, so a covariance from derivatives does not capture
+/// it.
 Eigen::Matrix2d squares_about(const LocalizationProblem& problem, const SamplesOfTag& samples,
-                              const WayLine& way, const TagEstimate& estimate) {
+                              const PathLine& way, const TagEstimate& estimate) {
   constexpr int kAlong = 60;
   constexpr int kAcross = 30;
   constexpr double kStepAlong = 0.05;   // [m]
   constexpr double kStepAcross = 0.02;  // [m]
   const TagPhases phases = coherent_reads(problem, samples);
   const HeightModel height = height_model(problem, estimate.tag, phases);
-  const PlaceVector best = to_unknowns(height, estimate.candidates.front().p_WT);
-  const auto errors_at = [&](const PlaceVector& place) {
+  const PositionVector best = to_unknowns(height, estimate.candidates.front().p_WT);
+  const auto errors_at = [&](const PositionVector& place) {
     return residuals_of(phases, height, {place, offsets_at(phases, height, place), 0.0});
   };
   const Eigen::ArrayXd least = errors_at(best);
@@ -157,7 +158,7 @@ Eigen::Matrix2d squares_about(const LocalizationProblem& problem, const SamplesO
   double sum = 0.0;
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   const auto add = [&](const Eigen::Vector2d& p) {
-    PlaceVector place = best;
+    PositionVector place = best;
     place.head<2>() = p;
     const double more = (errors_at(place).square() - least.square()).sum() / noise;
     const double weight = std::exp(-0.5 * std::max(more, 0.0));
@@ -165,7 +166,7 @@ Eigen::Matrix2d squares_about(const LocalizationProblem& problem, const SamplesO
     sum += weight;
     squares += weight * off * off.transpose();
   };
-  // Both peaks, which may be too narrow for the grid to meet them.
+  // Both peaks, which may be too narrow for the grid to hit them.
   add(best.head<2>());
   add(2.0 * on_line - best.head<2>());
   for (int i = -kAlong; i <= kAlong; ++i) {
@@ -179,7 +180,7 @@ Eigen::Matrix2d squares_about(const LocalizationProblem& problem, const SamplesO
 }  // namespace
 
 double log_chance(const std::vector<double>& reads, double sum, double places) {
-  std::map<double, double> groups;  // How many are of so many reads.
+  std::map<double, double> groups;  // Number of apertures by number of reads.
   for (const double n : reads) groups[n] += 1.0;
   double least = 0.0;
   for (double lambda = 0.02; lambda < 40.0; lambda *= 1.25) {
@@ -191,13 +192,13 @@ double log_chance(const std::vector<double>& reads, double sum, double places) {
 }
 
 void refuse_without_phases(const LocalizationProblem& problem, LocalizationResult& result) {
-  for_each_place(problem, result, [](const SamplesOfTag&, TagEstimate& estimate) {
+  for_each_position(problem, result, [](const SamplesOfTag&, TagEstimate& estimate) {
     refuse(estimate, "the reads have no phases, or all the same one: use a method by RSSI");
   });
 }
 
 void refuse_chance(const LocalizationProblem& problem, LocalizationResult& result) {
-  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+  for_each_position(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     const double chance =
         least_log_chance(problem, estimate.tag, samples, estimate.candidates.front().p_WT);
     if (chance > std::log(kMostChance)) {
@@ -208,11 +209,11 @@ void refuse_chance(const LocalizationProblem& problem, LocalizationResult& resul
 
 void refuse_mixtures(const LocalizationProblem& problem, LocalizationResult& result) {
   if (!result.corrected_poses.empty() && !has_exact_poses(problem)) return;
-  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+  for_each_position(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     const TagPhases phases = coherent_reads(problem, samples);
     if (phases.size() == 0) return;
     const HeightModel height = height_model(problem, estimate.tag, phases);
-    const PlaceVector place = to_unknowns(height, estimate.candidates.front().p_WT);
+    const PositionVector place = to_unknowns(height, estimate.candidates.front().p_WT);
     const Eigen::ArrayXd errors =
         residuals_of(phases, height, {place, offsets_at(phases, height, place), 0.0});
     refuse_mixture(errors * phases.wavenumber, estimate);
@@ -220,17 +221,17 @@ void refuse_mixtures(const LocalizationProblem& problem, LocalizationResult& res
 }
 
 void refuse_mixtures_by_phase(const LocalizationProblem& problem, LocalizationResult& result) {
-  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
-    const BrightestPlace there = brightest_place(problem, estimate.tag, samples);
+  for_each_position(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+    const HologramPeak there = hologram_peak(problem, estimate.tag, samples);
     if (there.residuals_rad.size() > 0) refuse_mixture(there.residuals_rad, estimate);
   });
 }
 
 void span_line(const LocalizationProblem& problem, LocalizationResult& result) {
-  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+  for_each_position(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     if (estimate.verdict != Verdict::kLocated) return;
     const std::vector<Eigen::Vector2d> places = places_of(samples);
-    const WayLine way = way_line(places);
+    const PathLine way = path_line(places);
     if (!is_straight(places, way)) return;
     Candidate& best = estimate.candidates.front();
     if (std::abs(across(way).dot(best.p_WT.head<2>() - way.middle)) > kNearLine) return;
@@ -245,16 +246,16 @@ void span_line(const LocalizationProblem& problem, LocalizationResult& result) {
 
 void refuse_wrong_sign(const LocalizationProblem& problem, LocalizationResult& result,
                        Diagnostics& diagnostics) {
-  // A phase that fits with one sign leaves a radian or so of deviation with the other.
+  // Phases that fit with one sign have residuals of about a radian with the other.
   constexpr double kBetter = 0.1;
   std::size_t wrong = 0;
-  const auto telling = telling_tags(problem);
-  for (const auto* entry : telling) {
+  const auto informative = informative_tags(problem);
+  for (const auto* entry : informative) {
     const double as_told = best_share(problem, entry->first, entry->second);
     const double other = best_share(problem, entry->first, with_other_sign(entry->second));
     if (other > as_told + kBetter && other > 0.5) ++wrong;
   }
-  if (wrong == 0 || 2 * wrong <= telling.size()) return;
+  if (wrong == 0 || 2 * wrong <= informative.size()) return;
   diagnostics.warn(
       "the phases fit positions only with the opposite sign: they fall with distance (a dataset's "
       "profile says so by falls_with_distance: true), or antennas are mixed up");

@@ -14,7 +14,7 @@ double misfit_of(const TagPhases& phases, const TagPhases::Span& span,
                  const Eigen::ArrayXd& residuals, double white) {
   const PoseErrorModel& model = *phases.pose_error;
   const double slow = model.sigma_m * model.sigma_m;
-  Eigen::Vector2d state = Eigen::Vector2d::Zero();  // The pose's error, the offset.
+  Eigen::Vector2d state = Eigen::Vector2d::Zero();  // Pose error and offset.
   Eigen::Matrix2d covariance = Eigen::Vector2d(slow, kAnyOffset).asDiagonal();
   double misfit = 0.0;
   for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How badly residuals fit a pose error that is told.
+/// Misfit of residuals under a stated pose error.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,15 +9,15 @@
 
 namespace tagfield {
 
-/// −2 ln of the likelihood of a place's residuals [m], but for what all places have in common: Σ
-/// over the spans of eᵀ C⁻¹ e, C = `white` I + σ² exp(−|t_i − t_j|/T) + what an offset of which
-/// nothing is known adds, of variance 100 m². σ and T are those of phases.pose_error, which must be
-/// there; `white` [m²], over 0, is the noise of one read. Reads of a span are in order of time. By
-/// Kalman's filter over the pose's error and the offset.
+/// −2 ln of the likelihood of a position's residuals [m], up to a constant common to all positions:
+/// Σ over the spans of eᵀ C⁻¹ e, C = `white` I + σ² exp(−|t_i − t_j|/T) + an unknown offset of
+/// variance 100 m². σ and T are those of phases.pose_error, which must be set; `white` > 0 [m²] is
+/// the noise variance of a single read. The reads of a span must be sorted by time. Uses a Kalman
+/// filter over the pose error and the offset.
 double pose_misfit(const TagPhases& phases, const Eigen::ArrayXd& residuals, double white);
 
-/// Whether reads are too far apart for their residuals to show how fast the told pose errors change
-/// (fit_candidates.h: neighbour_differences()). False where none is told.
+/// Whether reads are too far apart for their residuals to show how fast the stated pose errors
+/// change (fit_candidates.h: neighbour_differences()). False if none is stated.
 bool hides_pose_errors(const TagPhases& phases, const Eigen::ArrayXd& residuals);
 
 }  // namespace tagfield

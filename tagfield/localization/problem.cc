@@ -51,7 +51,7 @@ void check(const KnownBeforehand& known) {
   require_positive("max_rms_m", known.limits.max_rms_m);
 }
 
-/// The offset of one channel goes before that of all.
+/// The offset of a single channel takes precedence over that of all.
 const KnownOffset* offset_of(const std::vector<KnownOffset>& offsets, const std::string& antenna,
                              double frequency_hz) {
   const KnownOffset* of_all = nullptr;
@@ -66,7 +66,7 @@ const KnownOffset* offset_of(const std::vector<KnownOffset>& offsets, const std:
   return of_all;
 }
 
-/// Antennas of which every sample has a known offset, which is taken out.
+/// Subtracts known offsets and returns the antennas for which every sample had one.
 std::set<std::string> take_out_offsets(const std::vector<KnownOffset>& offsets,
                                        SamplesByTag& samples) {
   std::set<std::string> known;
@@ -86,7 +86,7 @@ std::set<std::string> take_out_offsets(const std::vector<KnownOffset>& offsets,
 }
 
 /// Mean height of the antennas that moved while they read a tag, as only those locate it; of all
-/// where none did; 0 without samples.
+/// antennas if none moved; 0 without samples.
 double mean_antenna_height(const SamplesOfTag& samples) {
   double sum[2] = {0.0, 0.0};
   double count[2] = {0.0, 0.0};
@@ -101,7 +101,7 @@ double mean_antenna_height(const SamplesOfTag& samples) {
   return 0.0;
 }
 
-/// With an origin; none where there is no pose.
+/// The map error with its origin filled in; nullopt if there is no pose.
 std::optional<MapError> map_error_of(const KnownBeforehand& known,
                                      const std::map<std::string, BelievedTrack>& tracks) {
   std::optional<MapError> error = known.map_error;
@@ -181,7 +181,7 @@ LocalizationProblem make_problem(const EachRead& each_read, const std::vector<An
   return problem;
 }
 
-bool is_orientation_told(const BelievedTrack& track) {
+bool is_orientation_known(const BelievedTrack& track) {
   return std::any_of(track.X_WA.begin(), track.X_WA.end(), [](const auto& stamped) {
     return !stamped.X_WB.rotation.isApprox(Eigen::Quaterniond::Identity(), 1e-9);
   });

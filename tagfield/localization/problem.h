@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a localization method is given: reads joined with believed antenna places, and all that is
-/// known besides, such as where tags can be. Nothing of where they really are.
+/// Input of a localization method: reads joined with believed antenna positions, and all prior
+/// knowledge, such as the area where tags can be. True positions are not part of it.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,39 +23,41 @@
 
 namespace tagfield {
 
-/// Of the antennas' way: as one goes along it, or towards an axis of the world.
+/// Side of the antennas' path on which tags are: left or right in the direction of travel, or
+/// towards a world axis.
 enum class TagSide { kLeft, kRight, kPlusX, kMinusX, kPlusY, kMinusY };
 
-/// Its words, in the order of its values.
+/// Names of the values, in their order.
 inline const std::vector<std::string> kTagSides = {"left", "right", "+x", "-x", "+y", "-y"};
 
-/// Of one of these words; throws Error on another.
+/// The side with this name; throws Error on any other.
 TagSide tag_side(const std::string& word);
 
-/// Nothing told: anywhere.
+/// Area where tags can be: anywhere, if nothing is set.
 struct TagArea {
   std::optional<TagSide> side;
   std::optional<Eigen::AlignedBox2d> box;  ///< Seen from above [m, world].
 };
 
-/// Whether a tag may be at `p`, beside the line through `middle` in the direction `along`.
+/// Whether a tag may be at `p`, relative to the line through `middle` in the direction `along`.
 bool is_within(const TagArea& area, const Eigen::Vector2d& middle, const Eigen::Vector2d& along,
                const Eigen::Vector2d& p);
 
-/// The line along which antennas went, by their places: middle, and the direction of the longest
-/// extent from the first place on.
-struct WayLine {
+/// Line along the antennas' path: the midpoint, and the direction of the longest extent, pointing
+/// away from the first position.
+struct PathLine {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();
 };
-WayLine way_line(const std::vector<Eigen::Vector2d>& places);
+PathLine path_line(const std::vector<Eigen::Vector2d>& places);
 
-/// Without the candidates where no tag can be. Several of which one is left become a place; where
-/// none is left the tag is not located. `most_error_m`: a place expected to be worse is none.
-void keep_within(const TagArea& area, const WayLine& way, double most_error_m,
+/// Removes the candidates outside the area. If a single one of several is left, the tag becomes
+/// located; if none is left, it is not located. The same holds if the expected error of the best
+/// one left exceeds `most_error_m`.
+void keep_within(const TagArea& area, const PathLine& way, double most_error_m,
                  TagEstimate& estimate);
 
-/// One phase measured at one place.
+/// One phase measurement at one antenna position.
 struct PhaseSample {
   Time stamp;
   double phase_rad = 0.0;     ///< In [0, 2π).
@@ -64,48 +66,47 @@ struct PhaseSample {
   double rssi_dbm = 0.0;
 };
 
-/// Stands for an RSSI that was not reported [dBm].
+/// Placeholder for an RSSI that was not reported [dBm].
 inline constexpr double kNoRssi = -200.0;
 
-/// Samples of one tag, by antenna, each in rising order of time.
+/// Samples of one tag by antenna, each series sorted by time.
 using SamplesOfTag = std::map<std::string, std::vector<PhaseSample>>;
 
-/// All samples, by tag.
+/// All samples by tag.
 using SamplesByTag = std::map<std::string, SamplesOfTag>;
 
 struct BelievedTrack;
 
-/// The antennas' believed poses by antenna, in rising order of time. Poses that are not finite,
-/// repeat a stamp, or whose clock must have been wrong (strays.h) are left out, which is counted in
-/// one warning for each antenna.
+/// Believed poses by antenna, sorted by time. Poses that are not finite, repeat a stamp, or were
+/// stamped by a wrong clock (strays.h) are left out and counted in a warning for each antenna.
 std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& poses,
                                                Diagnostics& diagnostics);
 
-/// Calls what it is given for each read, every time in the same order: reads in memory, or of a
-/// table that is read anew each time.
+/// Calls a callback for each read, always in the same order; the reads are in memory, or in a table
+/// that is read anew each time.
 struct EachRead {
   using Take = std::function<void(const TagRead&)>;
   explicit EachRead(std::function<void(const Take&)> of_all) : call(std::move(of_all)) {}
   void operator()(const Take& take) const { call(take); }
   std::function<void(const Take&)> call;
 };
-/// Those in memory, which must outlive it.
+/// Iterates over reads in memory, which must outlive the result.
 EachRead each_of(const std::vector<TagRead>& reads);
 
-/// Whether the reads have phases: false of eight or more whose phases are all one, as of readers
-/// and tables that have none and say 0.
+/// Whether the reads have phases: false for eight or more reads with identical phases, as from
+/// readers and tables that lack phases and report 0.
 bool has_phases(const std::vector<TagRead>& reads);
 
 /// Joins reads with the antennas' poses, interpolated at each read's stamp. A read whose antenna
 /// has no pose at its stamp (poses further apart than `max_pose_gap_s` while the antenna moved, or
 /// the stamp before the first or after the last) is left out and counted in one warning for each
-/// antenna, which says why. An antenna with one pose stands still. Two reads of a tag by an antenna
-/// at the same stamp: the first counts, and a warning counts the others. Reads whose clock must
-/// have been wrong (strays.h) are left out, which is told, too.
+/// antenna, which gives the reason. An antenna with a single pose is stationary. Of several reads
+/// of a tag by an antenna at the same stamp the first is used, and a warning counts the others.
+/// Reads stamped by a wrong clock (strays.h) are left out with a warning.
 SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
                                     const std::map<std::string, BelievedTrack>& tracks,
                                     double max_pose_gap_s, Diagnostics& diagnostics);
-/// Samples, and has_phases() of the reads, which are gone through twice.
+/// Samples, and has_phases() of the reads. The reads are traversed twice.
 struct JoinedReads {
   SamplesByTag samples;
   bool has_phases = true;
@@ -114,61 +115,62 @@ JoinedReads join_reads_with_tracks(const EachRead& each_read,
                                    const std::map<std::string, BelievedTrack>& tracks,
                                    double max_pose_gap_s, Diagnostics& diagnostics);
 
-/// On which side of the antennas' heights a tag of unknown height is: from a level path only its
-/// distance from that level can be told.
+/// Whether a tag of unknown height is above or below the antennas: from a level path only its
+/// vertical distance from that level can be determined.
 enum class HeightSide { kAbove, kBelow };
 
-/// What is known of the tags' heights [m, world]. Where nothing is, a tag is taken to be as high
-/// as the antennas are in the mean, or its height is estimated.
+/// What is known of the tags' heights [m, world]. If nothing is known of a tag, its height is
+/// assumed to be the mean height of the antennas, or is estimated.
 struct TagHeights {
   std::optional<double> of_all;
-  std::map<std::string, double> of_tag;  ///< Goes before `of_all`.
-  std::optional<HeightSide> estimated;  ///< Heights that are not known are estimated, on this side.
+  std::map<std::string, double> of_tag;  ///< Takes precedence over `of_all`.
+  std::optional<HeightSide> estimated;   ///< Unknown heights are estimated, on this side.
 };
 
 /// Error of the believed poses: an Ornstein-Uhlenbeck process in x, y and yaw, with variances σ²
 /// and the correlation e^(−|Δt|/τ).
 struct PoseErrorModel {
-  double sigma_m = 0.0;  ///< Standard deviation in x and in y; 0 where the pose is true.
+  double sigma_m = 0.0;  ///< Standard deviation in x and in y; 0 if the pose is exact.
   double yaw_sigma_rad = 0.0;
   double time_constant_s = 5.0;  ///< τ > 0.
 };
 
-/// Error of the map that the believed poses are on, as a whole: a shift and a turn about the
-/// origin, the same for all poses. For a map that a robot made the origin is where it began.
+/// Global error of the map in which the believed poses are given: a shift and a rotation about the
+/// origin, common to all poses. For a map that a robot built, the origin is where it started.
 struct MapError {
-  std::optional<Eigen::Vector2d> origin_W;               ///< [m]; none for that of the first pose.
+  std::optional<Eigen::Vector2d> origin_W;  ///< [m]; nullopt for the position of the first pose.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of x, y, yaw [m², m·rad, rad²].
 };
 
-/// Where an antenna was believed to be.
+/// Believed trajectory of an antenna.
 struct BelievedTrack {
-  Trajectory X_WA;  ///< In rising order of time.
-  /// Covariance of x, y, yaw at each of these [m², m·rad, rad²]; empty where it is not told.
+  Trajectory X_WA;  ///< Sorted by time.
+  /// Covariance of x, y, yaw at each of these poses [m², m·rad, rad²]; empty if not given.
   std::vector<Eigen::Matrix3d> covariance;
 };
 
-/// Whether it says how the antenna lay: of a track that doesn't all rotations are the identity.
-bool is_orientation_told(const BelievedTrack& track);
+/// Whether the track has orientations; if not, all rotations are the identity.
+bool is_orientation_known(const BelievedTrack& track);
 
-/// A phase offset that is known, as from a calibration.
+/// A known phase offset, e.g. from a calibration.
 struct KnownOffset {
   std::string antenna;
-  std::optional<double> frequency_hz;  ///< Of one channel; none for all of them.
+  std::optional<double> frequency_hz;  ///< Of one channel; nullopt for all of them.
   double offset_rad = 0.0;             ///< φ = offset + 4π r/λ.
 };
 
-/// Of circular polarization, as seen along the wave.
+/// Handedness of circular polarization, as seen along the direction of propagation.
 enum class Hand { kRight, kLeft };
 
-/// An estimate worse than this is not given as located.
+/// Limits beyond which an estimate is not reported as located.
 struct EstimateLimits {
   double max_expected_error_m = 0.15;
-  double max_rms_m = 0.08;  ///< A worse misfit than this is no tag at rest.
+  double max_rms_m = 0.08;  ///< With a larger misfit the phases don't fit a tag at rest.
 };
 
-/// One path of a known world from an antenna to a place, as if it came straight from a mirrored
-/// antenna: near the place, p, its field is amplitude / |p − source| e^(−jk |p − source|).
+/// One path in a known world from an antenna to a position, as if it came straight from a mirror
+/// image of the antenna: at a point p near the position, its field is amplitude / |p − source|
+/// e^(−jk |p − source|).
 struct TracedWave {
   Eigen::Vector3d source_W;  ///< [m]
   std::complex<double> amplitude;
@@ -176,18 +178,18 @@ struct TracedWave {
   bool direct = false;          ///< The source is the antenna itself.
 };
 
-/// All paths of a reply. `backward` is empty where one antenna sends and receives.
+/// All paths of a reply. `backward` is empty if one antenna transmits and receives.
 struct TracedReply {
   std::vector<TracedWave> forward, backward;
 };
 
-/// Poses of an antenna, and the carriers on which it reads there; as many.
+/// Poses of an antenna, and the carrier of its read at each pose.
 struct TracedFrom {
   std::vector<RigidTransform> X_WA;
   std::vector<double> carriers_hz;
 };
 
-/// By antenna, one for each of its poses; of antennas that can't be traced without waves.
+/// Replies by antenna, one for each of its poses; without waves for antennas that can't be traced.
 using TracedReplies = std::map<std::string, std::vector<TracedReply>>;
 
 /// Replies of a tag at `p_WT` [m] to antennas.
@@ -195,34 +197,35 @@ using TraceReplies =
     std::function<TracedReplies(const std::string& tag, const Eigen::Vector3d& p_WT,
                                 const std::map<std::string, TracedFrom>& antennas)>;
 
-/// Called now and then, from any thread, with what is being done and how much of that is, 0 to 1.
+/// Progress callback, called occasionally from any thread with the current step and the share of it
+/// that is done, 0 to 1.
 using OnLocating = std::function<void(const std::string& what, double share)>;
 
-/// All that the methods share. Phases in `samples` have the known offsets taken out.
+/// Input shared by all methods. Known offsets are already subtracted from the phases in `samples`.
 struct LocalizationProblem {
-  SamplesByTag samples;                         ///< In order; see join_reads_with_poses().
+  SamplesByTag samples;                         ///< Sorted by time; see join_reads_with_tracks().
   std::map<std::string, BelievedTrack> tracks;  ///< By antenna.
   TagHeights heights;
-  std::map<std::string, Eigen::Vector3d> reference_tags;  ///< Tags at known places [m, world].
-  /// Antennas that send and receive circularly polarized waves by one element, and so turn the
-  /// phase of a tag with one wire (circular_polarization.h).
+  std::map<std::string, Eigen::Vector3d> reference_tags;  ///< Tags at known positions [m, world].
+  /// Antennas that transmit and receive circularly polarized waves with one element, and so rotate
+  /// the phase of a linearly polarized tag (circular_polarization.h).
   std::map<std::string, Hand> circular;
-  std::set<std::string> offset_known;        ///< Antennas whose offset is known, in all channels.
-  std::optional<PoseErrorModel> pose_error;  ///< None where nothing is known of it.
-  std::optional<MapError> map_error;         ///< Likewise; with an origin.
-  bool has_phases = true;                    ///< False where they are all one: the reads have none.
+  std::set<std::string> offset_known;        ///< Antennas whose offset is known on all channels.
+  std::optional<PoseErrorModel> pose_error;  ///< nullopt if unknown.
+  std::optional<MapError> map_error;         ///< nullopt if unknown; with an origin.
+  bool has_phases = true;                    ///< False if they are identical: the reads have none.
   bool half_turns = false;                   ///< Phases and carriers were doubled (half_turns.h).
   TagArea area;                              ///< Where tags can be.
   EstimateLimits limits;
-  TraceReplies trace;          ///< Through the world, where that is known; else null.
-  double world_sigma_m = 0.0;  ///< How far its surfaces may be from where they are said to be.
-  OnLocating on_locating;      ///< Or null.
+  TraceReplies trace;          ///< Traces paths through the world if that is known, otherwise null.
+  double world_sigma_m = 0.0;  ///< Standard deviation of its surfaces' positions along each axis.
+  OnLocating on_locating;      ///< May be null.
 
-  /// By which phases and carriers in `samples` were multiplied.
+  /// Factor by which phases and carriers in `samples` were multiplied.
   [[nodiscard]] double multiple() const { return half_turns ? 2.0 : 1.0; }
 };
 
-/// What a problem is made from, besides reads and poses.
+/// Prior knowledge from which a problem is made, besides reads and poses.
 struct KnownBeforehand {
   TagHeights heights;
   std::map<std::string, Eigen::Vector3d> reference_tags;
@@ -230,15 +233,14 @@ struct KnownBeforehand {
   std::optional<PoseErrorModel> pose_error;
   std::optional<MapError> map_error;
   double max_pose_gap_s = 0.5;  ///< Reads between poses further apart than this are left out.
-  /// Whether phases are known but for half a turn; where not told, the reads tell it.
+  /// Whether phases have a π ambiguity; if not given, it is detected from the reads.
   std::optional<bool> half_turns;
   TagArea area;  ///< Where tags can be.
   EstimateLimits limits;
-  TraceReplies trace{};  ///< Through the world, where that is known. Called by several threads.
-  /// How far its surfaces may be from where they are said to be, standard deviation along each
-  /// axis.
+  TraceReplies trace{};  ///< Through the world if that is known. Called from several threads.
+  /// Standard deviation of its surfaces' positions along each axis.
   double world_sigma_m = 0.0;
-  std::map<std::string, Hand> circular{};  ///< Antennas that are known to be circularly polarized.
+  std::map<std::string, Hand> circular{};  ///< Antennas known to be circularly polarized.
 };
 
 /// Warns of tags whose height is neither known nor to be estimated; reference tags need none.
@@ -246,20 +248,20 @@ void warn_of_unknown_heights(const KnownBeforehand& known, const std::vector<std
                              Diagnostics& diagnostics);
 
 /// Joins reads (in any order) with the antennas' believed poses, interpolated at each read's stamp,
-/// takes known offsets out, doubles phases with half turns and merges reads at stops (stops.h).
-/// Reads without a pose are left out with a warning. Throws Error on what is known beforehand where
-/// it is not finite or out of range.
+/// subtracts known offsets, doubles phases that have a π ambiguity and merges reads at stops
+/// (stops.h). Reads without a pose are left out with a warning. Throws Error if values in `known`
+/// are not finite or out of range.
 LocalizationProblem make_problem(const std::vector<TagRead>& reads,
                                  const std::vector<AntennaPose>& poses,
                                  const KnownBeforehand& known, Diagnostics& diagnostics);
 LocalizationProblem make_problem(const EachRead& each_read, const std::vector<AntennaPose>& poses,
                                  const KnownBeforehand& known, Diagnostics& diagnostics);
 
-/// Height of a tag's plane [m]: known, or else that of the antennas that moved while they read it,
-/// in the mean.
+/// Height of a tag's plane [m]: the known one, otherwise the mean height of the antennas that moved
+/// while they read it.
 double plane_height(const LocalizationProblem& problem, const std::string& tag);
 
-/// Whether the tag's height is to be estimated, and on which side.
+/// Side on which the tag's height is to be estimated; nullopt if it is not.
 std::optional<HeightSide> side_to_estimate(const LocalizationProblem& problem,
                                            const std::string& tag);
 

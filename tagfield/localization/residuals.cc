@@ -7,10 +7,10 @@
 namespace tagfield {
 namespace {
 
-/// No better is believed of any phase [m]: a fit without residuals is still not certain.
+/// Lower limit of the deviation of any phase [m]: even a fit without residuals is not certain.
 constexpr double kLeastDeviation = 1e-5;
 
-/// Mean of e_i e_{i+lag} over the pairs within a segment; 0 where they are too few to tell.
+/// Mean of e_i e_{i+lag} over the pairs within a span; 0 if there are too few.
 double lagged_product(const Spans& spans, const Eigen::ArrayXd& residuals, Eigen::Index lag) {
   double sum = 0.0;
   Eigen::Index all = 0;
@@ -55,7 +55,7 @@ double noise_of_one(const Spans& spans, const Eigen::ArrayXd& residuals) {
 double residual_variance(const Spans& spans, const Eigen::ArrayXd& residuals) {
   const auto reads = static_cast<double>(residuals.size());
   const auto unknowns = static_cast<double>(spans.size()) + 2.0;
-  // Slow errors are fitted away by as few unknowns as there are independent residuals.
+  // Of slow errors, each unknown absorbs as many reads as are worth one independent residual.
   const double slow = 3.0 * (correlation_factor(spans, residuals) - 1.0);
   const double freedom = std::max({1.0, 0.2 * reads, reads - unknowns - slow});
   return std::max(residuals.square().sum() / std::min(freedom, reads),
@@ -71,7 +71,7 @@ bool tells_apart(const Spans& spans, const Eigen::ArrayXd& best, const Eigen::Ar
   const double difference = (other.square() - best.square()).sum() / noise;
   const double chance = 2.0 * std::sqrt((other - best).square().sum() / noise);
   const double independent = static_cast<double>(best.size()) / factor;
-  // Σ other² / Σ best² by way of the variance, which is never 0.
+  // Σ other² / Σ best² computed from the variance, which is never 0.
   const double ratio = 1.0 + difference / independent;
   return difference > kThreshold && difference > kDeviations * chance &&
          std::log(ratio) > kRatioDeviations * 2.0 / std::sqrt(independent);

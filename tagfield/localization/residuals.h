@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the residuals of a fit say about it: how uncertain it is, and whether another place is
-/// really worse. Phase noise is independent from read to read, but pose errors are not.
+/// Statistics of the residuals of a fit: how uncertain it is, and whether another position is
+/// significantly worse. Phase noise is independent from read to read, but pose errors are not.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,23 +11,24 @@
 
 namespace tagfield {
 
-/// Stretches of reads whose errors are fitted with an offset each.
+/// Spans of reads, each fitted with its own offset.
 using Spans = std::vector<TagPhases::Span>;
 
-/// How many correlated residuals are worth one independent one, at least 1: the integrated
-/// autocorrelation time 1 + 2 Σ ρ_k over the lags before the first ρ_k ≤ 0.
+/// Number of correlated residuals equivalent to one independent residual, at least 1: the
+/// integrated autocorrelation time 1 + 2 Σ ρ_k over the lags before the first ρ_k ≤ 0.
 double correlation_factor(const Spans& spans, const Eigen::ArrayXd& residuals);
 
-/// Noise of one residual [m], from the differences of neighbours in a span, which slow errors leave
-/// alone: √(½ mean Δ²). 0 where there are no neighbours.
+/// Noise of a single residual [m], from the differences of neighbours in a span, which slow errors
+/// hardly affect: √(½ mean Δ²). 0 if there are no neighbours.
 double noise_of_one(const Spans& spans, const Eigen::ArrayXd& residuals);
 
-/// Variance of one residual [m²], the fitted place and offsets allowed for.
+/// Variance of one residual [m²], corrected for the degrees of freedom of the fitted position and
+/// offsets.
 double residual_variance(const Spans& spans, const Eigen::ArrayXd& residuals);
 
-/// False where a place with residuals `other` explains the data so nearly as well as one with
-/// residuals `best` that chance could be the reason. To tell them apart all must hold, with
-/// Δ = Σ(other² − best²)/(σ² τ) and n/τ independent reads:
+/// Whether a position with residuals `other` is significantly worse than one with residuals `best`,
+/// beyond what chance could cause. With n/τ independent reads and Δ = Σ(other² − best²)/(σ² τ), all
+/// of the following must hold:
 ///   - the squares differ by more than noise: Δ > 16;
 ///   - not by errors that both share: Δ > 4 · 2 √(Σ(other − best)²/(σ² τ)) (after Vuong,
 ///     Econometrica 57, 1989);

@@ -31,7 +31,7 @@ PhaseSample merged(const Gathered& of) {
 
 std::vector<PhaseSample> with_stops_merged(const std::vector<PhaseSample>& series) {
   std::vector<PhaseSample> result;
-  std::vector<Gathered> stop;  // By channel, in the order in which they begin.
+  std::vector<Gathered> stop;  // One entry per channel, in order of appearance.
   std::map<double, std::size_t> channels;
   const auto finish = [&] {
     for (const Gathered& of : stop) result.push_back(merged(of));
@@ -48,7 +48,7 @@ std::vector<PhaseSample> with_stops_merged(const std::vector<PhaseSample>& serie
     of.count += 1.0;
   }
   finish();
-  result.shrink_to_fit();  // Of thousands of tags all of them are kept for long.
+  result.shrink_to_fit();  // The samples of thousands of tags stay in memory for long.
   return result;
 }
 

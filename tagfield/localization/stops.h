@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads at one stop of the antenna: many of them, but one observation.
+/// Merging of reads at a stop of the antenna: many reads, but a single observation.
 #pragma once
 
 #include "tagfield/localization/problem.h"
 
 namespace tagfield {
 
-/// Of antennas that moved, consecutive samples of a tag within 1 mm of the first are a stop; those
-/// of a stop on one channel become one sample with their mean phase (on the circle, so that few
-/// outliers pull little) and RSSI, at the stamp of the first. What an antenna in motion reads stays
-/// as it is.
+/// For antennas that moved, consecutive samples of a tag within 1 mm of the first form a stop.
+/// Those of a stop on one channel are merged into one sample with their circular mean phase (on
+/// which a few outliers have little influence) and mean RSSI, at the stamp of the first. Reads of
+/// an antenna in motion are unchanged.
 void merge_stops(SamplesByTag& samples);
 
 }  // namespace tagfield

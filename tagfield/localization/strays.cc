@@ -9,12 +9,13 @@
 namespace tagfield {
 namespace {
 
-constexpr Duration kLeastPause = std::chrono::hours(1);  ///< Clocks err by time zones and epochs.
+/// Clocks are off by time zones or epochs.
+constexpr Duration kLeastPause = std::chrono::hours(1);
 constexpr std::size_t kRowsToAStray = 100;
 
 using Stamp = std::vector<Time>::const_iterator;
 
-/// The stamp after the longest pause.
+/// First stamp after the longest pause.
 Stamp after_longest_pause(Stamp begin, Stamp end) {
   Stamp longest = begin + 1;
   for (Stamp at = begin + 1; at != end; ++at) {
@@ -36,7 +37,7 @@ StampRange range_without_strays(std::vector<Time> stamps) {
   while (end - begin > 1) {
     const Stamp cut = after_longest_pause(begin, end);
     const Duration pause = *cut - *(cut - 1);
-    const bool early = cut - begin < end - cut;  // The strays, if they are any.
+    const bool early = cut - begin < end - cut;  // Whether the strays, if any, come first.
     const Stamp first = early ? cut : begin;
     const Stamp last = early ? end : cut;
     const auto left_out = stamps.size() - static_cast<std::size_t>(last - first);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rows whose clock must have been wrong.
+/// Rows whose stamps are from a wrong clock.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,17 @@
 
 namespace tagfield {
 
-/// From the first of some rows to the last.
+/// Range of stamps from the first row to the last.
 struct StampRange {
   Time begin;
   Time end;
 };
 
-/// When there were rows with these stamps (in any order, at least one), but for strays: one row, or
-/// up to one in a hundred, but fewer than locate a tag, that are further from all others than these
-/// last, an hour at least. That is no pause of work, but a clock that was not set yet or fell back
-/// to its epoch, and so nothing tells where the antenna was.
+/// Range of the rows with these stamps (in any order, at least one), without strays. Strays are one
+/// row, or up to one in a hundred but fewer than it takes to locate a tag, that are further in time
+/// from all others than the duration of these, at least an hour. This is taken not for a pause in
+/// operation but for a clock that was not yet set or fell back to its epoch, so that the antenna's
+/// position is unknown.
 StampRange range_without_strays(std::vector<Time> stamps);
 
 }  // namespace tagfield

@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-/// Over 0 on the side that is meant, under 0 on the other.
+/// Positive on the requested side, negative on the other.
 double side_of(TagSide side, const Eigen::Vector2d& along, const Eigen::Vector2d& apart) {
   const Eigen::Vector2d left(-along.y(), along.x());
   const double to_left = left.dot(apart);
@@ -32,12 +32,12 @@ double side_of(TagSide side, const Eigen::Vector2d& along, const Eigen::Vector2d
   return 0.0;
 }
 
-/// Those of the first one's place: nearer than it is certain, or than 3 cm.
+/// Drops candidates at the position of the first: nearer than its expected error or than 3 cm.
 void drop_repeats(std::vector<Candidate>& candidates) {
-  constexpr double kSamePlace = 0.03;
+  constexpr double kSamePosition = 0.03;
   if (candidates.empty()) return;
   const Candidate first = candidates.front();
-  const double apart = std::max(kSamePlace, first.expected_error_m);
+  const double apart = std::max(kSamePosition, first.expected_error_m);
   candidates.erase(std::remove_if(candidates.begin() + 1, candidates.end(),
                                   [&](const Candidate& other) {
                                     return (other.p_WT - first.p_WT).norm() < apart;
@@ -59,8 +59,8 @@ bool is_within(const TagArea& area, const Eigen::Vector2d& middle, const Eigen::
   return !area.side || side_of(*area.side, along, p - middle) >= 0.0;
 }
 
-WayLine way_line(const std::vector<Eigen::Vector2d>& places) {
-  WayLine line;
+PathLine path_line(const std::vector<Eigen::Vector2d>& places) {
+  PathLine line;
   if (places.empty()) return line;
   const auto furthest_from = [&](const Eigen::Vector2d& from) {
     return *std::max_element(places.begin(), places.end(), [&](const auto& a, const auto& b) {
@@ -74,7 +74,7 @@ WayLine way_line(const std::vector<Eigen::Vector2d>& places) {
   return line;
 }
 
-void keep_within(const TagArea& area, const WayLine& way, double most_error_m,
+void keep_within(const TagArea& area, const PathLine& way, double most_error_m,
                  TagEstimate& estimate) {
   std::vector<Candidate>& candidates = estimate.candidates;
   const std::size_t before = candidates.size();

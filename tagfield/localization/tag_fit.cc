@@ -13,14 +13,14 @@ namespace {
 
 using Span = TagPhases::Span;
 
-/// Value less range of one read.
-double error_of(const TagPhases& phases, const HeightModel& height, const PlaceVector& unknowns,
+/// Value minus range of one read.
+double error_of(const TagPhases& phases, const HeightModel& height, const PositionVector& unknowns,
                 Eigen::Index i) {
   return phases.value[i] - range_to(height, unknowns, phases.x[i], phases.y[i], phases.z[i]).r;
 }
 
-double span_offset(const TagPhases& phases, const HeightModel& height, const PlaceVector& unknowns,
-                   const Span& span) {
+double span_offset(const TagPhases& phases, const HeightModel& height,
+                   const PositionVector& unknowns, const Span& span) {
   if (span.offset_known) return 0.0;
   const Eigen::Index end = span.begin + span.count;
   if (phases.unwrapped) {
@@ -35,17 +35,17 @@ double span_offset(const TagPhases& phases, const HeightModel& height, const Pla
   return mean.value() / phases.wavenumber[span.begin];
 }
 
-/// One linearization: of e ≈ e₀ − J δ the sums that the next step needs, in radians, and how far
-/// each offset is off.
+/// Linearization e ≈ e₀ − J δ: the sums that the next step needs, in radians, and the correction of
+/// each offset.
 struct FitStep {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  Eigen::VectorXd offset_shift;   ///< By span: the mean error there [m],
-  Eigen::MatrixXd mean_gradient;  ///< and the mean gradient, a row a span.
+  Eigen::VectorXd offset_shift;   ///< Mean error of each span [m].
+  Eigen::MatrixXd mean_gradient;  ///< Mean gradient of each span, as rows.
   double cost = 0.0;
 };
 
-/// A fit under way.
+/// State of the iteration.
 struct FitPoint {
   TagFit fit;
   FitStep step;
@@ -72,7 +72,7 @@ void add_span(const TagPhases& phases, const HeightModel& height, const TagFit& 
     error_squares += error * error;
   }
   const auto count = static_cast<double>(span.count);
-  // One wave number a span, as it has one carrier.
+  // A span has a single wavenumber, as it has one carrier.
   const double weight = phases.wavenumber[span.begin] * phases.wavenumber[span.begin];
   if (!span.offset_known) {
     squares -= gradients * gradients.transpose() / count;
@@ -101,7 +101,7 @@ void linearize(const TagPhases& phases, const HeightModel& height, FitPoint& poi
   point.cost = point.step.cost;
 }
 
-TagFit moved(const TagFit& fit, const FitStep& step, const PlaceVector& move) {
+TagFit moved(const TagFit& fit, const FitStep& step, const PositionVector& move) {
   TagFit next;
   next.unknowns = fit.unknowns + move;
   next.offsets = fit.offsets + step.offset_shift - step.mean_gradient * move;
@@ -111,7 +111,7 @@ TagFit moved(const TagFit& fit, const FitStep& step, const PlaceVector& move) {
 }  // namespace
 
 Eigen::VectorXd offsets_at(const TagPhases& phases, const HeightModel& height,
-                           const PlaceVector& unknowns) {
+                           const PositionVector& unknowns) {
   Eigen::VectorXd offsets(static_cast<Eigen::Index>(phases.spans.size()));
   for (std::size_t s = 0; s < phases.spans.size(); ++s) {
     offsets[static_cast<Eigen::Index>(s)] = span_offset(phases, height, unknowns, phases.spans[s]);
@@ -132,7 +132,7 @@ Eigen::ArrayXd residuals_of(const TagPhases& phases, const HeightModel& height, 
   return errors;
 }
 
-TagFit fit_tag(const TagPhases& phases, const HeightModel& height, const PlaceVector& start) {
+TagFit fit_tag(const TagPhases& phases, const HeightModel& height, const PositionVector& start) {
   constexpr double kTolerance = 1e-6;  // [m]
   constexpr double kRidge = 1e-9;
   constexpr LevenbergMarquardt kHow{.most_steps = 30, .damping = 1e-6, .least_raised = 1e-3};
@@ -142,7 +142,7 @@ TagFit fit_tag(const TagPhases& phases, const HeightModel& height, const PlaceVe
   linearize(phases, height, point);
   point =
       descend(point, kHow, [&](const FitPoint& here, double damping) -> std::optional<FitPoint> {
-        const PlaceVector move =
+        const PositionVector move =
             solve_symmetric(damped(here.step.normal, damping, kRidge), here.step.gradient);
         if (!is_worthwhile(move, kTolerance)) return std::nullopt;
         FitPoint there;
@@ -156,7 +156,7 @@ TagFit fit_tag(const TagPhases& phases, const HeightModel& height, const PlaceVe
 }
 
 Eigen::Matrix3d normal_of(const TagPhases& phases, const HeightModel& height,
-                          const PlaceVector& unknowns) {
+                          const PositionVector& unknowns) {
   TagFit fit;
   fit.unknowns = unknowns;
   fit.offsets = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(phases.spans.size()));

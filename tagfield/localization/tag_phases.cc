@@ -31,14 +31,14 @@ std::vector<Channel> channels_of(const SamplesOfTag& samples, const std::vector<
   return channels;
 }
 
-/// All that each read has.
+/// The columns with one entry per read.
 constexpr Eigen::ArrayXd TagPhases::*kColumns[] = {&TagPhases::x,          &TagPhases::y,
                                                    &TagPhases::z,          &TagPhases::value,
                                                    &TagPhases::wavenumber, &TagPhases::time_s};
 
 }  // namespace
 
-std::optional<PoseErrorModel> told_pose_error(const LocalizationProblem& problem) {
+std::optional<PoseErrorModel> stated_pose_error(const LocalizationProblem& problem) {
   const bool any = problem.pose_error && problem.pose_error->sigma_m > 0.0;
   return any ? problem.pose_error : std::nullopt;
 }
@@ -82,7 +82,8 @@ Eigen::Vector2d mirror_image(const TagPhases& phases, const Eigen::Vector2d& p) 
   const Eigen::Vector2d middle(phases.x.mean(), phases.y.mean());
   const Eigen::ArrayXd dx = phases.x - middle.x();
   const Eigen::ArrayXd dy = phases.y - middle.y();
-  // The axis along which the points lie: the scatter's eigenvector with the greater eigenvalue.
+  // Principal axis of the points: the eigenvector of their scatter matrix with the larger
+  // eigenvalue.
   const double angle =
       0.5 * std::atan2(2.0 * (dx * dy).sum(), dx.square().sum() - dy.square().sum());
   const Eigen::Vector2d axis(std::cos(angle), std::sin(angle));
@@ -94,7 +95,7 @@ TagPhases wrapped_phases(const LocalizationProblem& problem, const SamplesOfTag&
                          const std::vector<std::string>& use) {
   const std::vector<Channel> channels = channels_of(samples, use);
   TagPhases phases;
-  phases.pose_error = told_pose_error(problem);
+  phases.pose_error = stated_pose_error(problem);
   Eigen::Index total = 0;
   for (const Channel& channel : channels) {
     total += static_cast<Eigen::Index>(channel.samples.size());

@@ -20,51 +20,51 @@ struct TagPhases {
     Eigen::Index begin = 0;
     Eigen::Index count = 0;
     std::string antenna{};
-    bool offset_known = false;  ///< Then the offset is 0.
-    double cycle_m = 0.0;       ///< λ/2: what a turn of the phase is in distance.
+    bool offset_known = false;  ///< If so, the offset is 0.
+    double cycle_m = 0.0;       ///< λ/2: distance per 2π of phase.
   };
-  Eigen::ArrayXd x, y, z;     ///< Antenna as believed [m].
-  Eigen::ArrayXd value;       ///< Phase over its wave number: distance and offset [m].
-  Eigen::ArrayXd wavenumber;  ///< 4π/λ [rad/m]: what a metre turns the phase by.
+  Eigen::ArrayXd x, y, z;     ///< Believed antenna position [m].
+  Eigen::ArrayXd value;       ///< Phase divided by the wavenumber: distance plus offset [m].
+  Eigen::ArrayXd wavenumber;  ///< 4π/λ [rad/m]: change of the phase per metre of distance.
   Eigen::ArrayXd time_s;
   std::vector<Span> spans;
-  bool unwrapped = false;  ///< Else `value` is known but for whole cycles.
-  /// Of the antenna's places, where it is told and not 0.
+  bool unwrapped = false;  ///< Otherwise `value` is known up to whole cycles.
+  /// Of the antenna's positions, if stated and not 0.
   std::optional<PoseErrorModel> pose_error;
 
   [[nodiscard]] Eigen::Index size() const { return value.size(); }
 };
 
-/// As they were reported, known but for whole cycles: each antenna and channel is a span. Samples
-/// of antennas that are not in `use` are left out.
+/// Phases as reported, known up to whole cycles, with one span for each antenna and channel.
+/// Samples of antennas that are not in `use` are left out.
 TagPhases wrapped_phases(const LocalizationProblem& problem, const SamplesOfTag& samples,
                          const std::vector<std::string>& use);
 
-/// The problem's model of the pose error, where it is told and not 0.
-std::optional<PoseErrorModel> told_pose_error(const LocalizationProblem& problem);
+/// The problem's model of the pose error, if stated and not 0.
+std::optional<PoseErrorModel> stated_pose_error(const LocalizationProblem& problem);
 
-/// Room for `count` reads.
+/// Resizes all columns to `count` reads.
 void resize(TagPhases& phases, Eigen::Index count);
 
-/// Lays out one sample, with its phase as it was reported.
+/// Stores one sample, with its phase as reported.
 void put(TagPhases& phases, Eigen::Index at, const PhaseSample& sample);
 
-/// The reads with these numbers, which rise, by the spans told; without a pose error.
+/// The reads with these indices (ascending), divided into the given spans; without a pose error.
 TagPhases chosen(const TagPhases& phases, const std::vector<Eigen::Index>& reads,
                  std::vector<TagPhases::Span> spans);
 
-/// Distance of a whole turn, by a carrier [m].
+/// Distance per 2π of phase at a carrier [m].
 double cycle_of(double frequency_hz);
 
-/// The longest of all spans [m]; 0 without any.
+/// Longest cycle of all spans [m]; 0 without spans.
 double longest_cycle(const TagPhases& phases);
 
-/// `error` [m] less the whole cycles by which the span's values are not known.
+/// `error` [m] reduced by whole cycles to the value nearest 0, unless the phases are unwrapped.
 inline double nearest_to_zero(const TagPhases& phases, const TagPhases::Span& span, double error) {
   return phases.unwrapped ? error : error - span.cycle_m * std::round(error / span.cycle_m);
 }
 
-/// Mirror image of `p` across the principal axis of the antennas' places, seen from above.
+/// Mirror image of `p` across the principal axis of the antennas' positions, seen from above.
 Eigen::Vector2d mirror_image(const TagPhases& phases, const Eigen::Vector2d& p);
 
 }  // namespace tagfield

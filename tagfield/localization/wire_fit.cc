@@ -23,19 +23,19 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Normal = Eigen::Matrix<double, 5, 5>;
 
-/// Starts of the wire's direction: nearest neighbours are some 35° apart.
+/// Starting directions of the wire: nearest neighbours are some 35° apart.
 constexpr std::size_t kAxes = 16;
-/// Further away it is another place [m].
+/// A fit further away is a different position [m].
 constexpr double kNearPlace = 0.5;
 constexpr std::size_t kEnoughReads = 300;
 
-/// What a fit may leave, over the noise: as for the choice of a method (docs/estimators.md).
+/// Largest ratio of misfit to noise: as for the choice of a method (docs/estimators.md).
 constexpr double kMostLeft = 1.6;
 
-/// Nothing of a wire that is seen along itself, where arg E·e has no value.
+/// Damps the derivative for a wire seen end-on, where arg E·e is undefined.
 constexpr double kLeastField = 1e-2;
 
-/// Every so manyeth read of each span.
+/// Every n-th read of each span.
 TagPhases fewer(const TagPhases& phases) {
   const auto stride =
       static_cast<Eigen::Index>(static_cast<std::size_t>(phases.size()) / kEnoughReads + 1);
@@ -53,7 +53,7 @@ TagPhases fewer(const TagPhases& phases) {
   return chosen(phases, reads, std::move(spans));
 }
 
-/// Two directions across the wire's.
+/// Two directions perpendicular to the wire.
 Eigen::Matrix<double, 3, 2> tangents(const Vector3d& axis_W) {
   Eigen::Matrix<double, 3, 2> across;
   across.col(0) = axis_W.unitOrthogonal();
@@ -61,7 +61,8 @@ Eigen::Matrix<double, 3, 2> tangents(const Vector3d& axis_W) {
   return across;
 }
 
-/// What a read's value has of the wire [m], and its change with the unknowns.
+/// Contribution of the wire to a read's value [m], and its derivative with respect to the wire's
+/// direction.
 void put_turn(const PolarizedReads& reads, Eigen::Index i, const Vector3d& p_WT,
               const WirePoint& point, const Eigen::Matrix<double, 3, 2>& across, double& turn_m,
               WireUnknowns& row) {
@@ -79,7 +80,7 @@ void put_turn(const PolarizedReads& reads, Eigen::Index i, const Vector3d& p_WT,
   }
 }
 
-/// Values less ranges and turns, and the change of those with the unknowns.
+/// Values minus ranges and phase rotations, and the derivatives of the sum of these two.
 struct Equations {
   Eigen::ArrayXd errors;
   Eigen::Matrix<double, Eigen::Dynamic, 5> rows;
@@ -89,7 +90,7 @@ Equations equations_at(const PolarizedReads& reads, const WirePoint& point) {
   const TagPhases& phases = reads.phases;
   Equations all{Eigen::ArrayXd(phases.size()),
                 Eigen::Matrix<double, Eigen::Dynamic, 5>(phases.size(), 5)};
-  const Vector3d p_WT = to_place(reads.height, point.place);
+  const Vector3d p_WT = to_position(reads.height, point.place);
   const Eigen::Matrix<double, 3, 2> across = tangents(point.axis_W);
   for (Eigen::Index i = 0; i < phases.size(); ++i) {
     const Range range = range_to(reads.height, point.place, phases.x[i], phases.y[i], phases.z[i]);
@@ -103,7 +104,7 @@ Equations equations_at(const PolarizedReads& reads, const WirePoint& point) {
   return all;
 }
 
-/// Offset that suits the span's errors, by the circular mean.
+/// Best offset for the span's errors, their circular mean.
 double offset_in(const TagPhases::Span& span, const Eigen::ArrayXd& errors) {
   if (span.offset_known) return 0.0;
   Complex sum = 0.0;
@@ -134,7 +135,7 @@ void linearize(const PolarizedReads& reads, WirePoint& point) {
   point.cost = point.errors.square().sum();
 }
 
-WirePoint fitted(const PolarizedReads& reads, const PlaceVector& place, const Vector3d& axis_W) {
+WirePoint fitted(const PolarizedReads& reads, const PositionVector& place, const Vector3d& axis_W) {
   constexpr LevenbergMarquardt kHow{.most_steps = 20, .damping = 1e-3, .least_raised = 1e-3};
   WirePoint start;
   start.place = place;
@@ -152,7 +153,7 @@ WirePoint fitted(const PolarizedReads& reads, const PlaceVector& place, const Ve
   });
 }
 
-/// Evenly over half of the sphere, as a wire has no front (Fibonacci's lattice).
+/// Evenly distributed over a hemisphere, as a wire has no front (Fibonacci lattice).
 Vector3d axis_number(std::size_t i) {
   const double golden = kPi * (3.0 - std::sqrt(5.0));
   const double z = (static_cast<double>(i) + 0.5) / static_cast<double>(kAxes);
@@ -161,8 +162,8 @@ Vector3d axis_number(std::size_t i) {
   return {radius * std::cos(around), radius * std::sin(around), z};
 }
 
-/// With the wire's direction unknown. One that the phases say nothing of is known to a radian or
-/// so all the same.
+/// Increase of the covariance because the wire's direction is unknown. A direction that the phases
+/// do not constrain has a prior of about a radian.
 Eigen::Matrix2d added_by_direction(const WirePoint& fit, double noise_m2) {
   Normal normal = fit.normal / noise_m2;
   if (!(normal(2, 2) > 0.0)) normal(2, 2) = 1.0;
@@ -173,7 +174,7 @@ Eigen::Matrix2d added_by_direction(const WirePoint& fit, double noise_m2) {
   return more.allFinite() ? more : Eigen::Matrix2d::Zero();
 }
 
-/// And by fits that are as good elsewhere.
+/// Mean square shift due to other fits that are nearly as good, weighted by likelihood.
 Eigen::Matrix2d added_by_others(const WireFits& all) {
   const WirePoint& best = all.fits.front();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
@@ -200,7 +201,7 @@ std::optional<KnownHand> known_hand(const LocalizationProblem& problem,
   const auto hand = problem.circular.find(antenna);
   const auto track = problem.tracks.find(antenna);
   if (hand == problem.circular.end() || track == problem.tracks.end()) return std::nullopt;
-  if (!is_orientation_told(track->second)) return std::nullopt;
+  if (!is_orientation_known(track->second)) return std::nullopt;
   return KnownHand{hand->second, &track->second};
 }
 
@@ -226,7 +227,7 @@ PolarizedReads polarized_reads(const LocalizationProblem& problem, const std::st
 
 WireFits fit_wire(const PolarizedReads& reads, const Vector3d& p_WT) {
   WireFits all;
-  const PlaceVector start = to_unknowns(reads.height, p_WT);
+  const PositionVector start = to_unknowns(reads.height, p_WT);
   for (std::size_t i = 0; i < kAxes; ++i) {
     WirePoint fit = fitted(reads, start, axis_number(i));
     if ((fit.place - start).head<2>().norm() < kNearPlace) all.fits.push_back(std::move(fit));

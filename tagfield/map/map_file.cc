@@ -18,7 +18,7 @@
 namespace tagfield {
 namespace {
 
-// What map_saver writes; 205 of 255 lies between the two thresholds.
+// Values written by map_saver; 205 of 255 is between the two thresholds.
 constexpr char kFreeGrey = static_cast<char>(254);
 constexpr char kOccupiedGrey = 0;
 constexpr char kUnknownGrey = static_cast<char>(205);
@@ -32,7 +32,7 @@ constexpr double kMostOrigin = 1e9;         // [m]
 
 enum class Mode { kTrinary, kScale, kRaw };
 
-/// What the YAML says.
+/// Contents of the YAML file.
 struct MapFrame {
   std::string image;
   double resolution_m = 0.0;
@@ -43,7 +43,7 @@ struct MapFrame {
   Mode mode = Mode::kTrinary;
 };
 
-/// The keys of the YAML file, each once.
+/// Keys of the YAML file, each unique.
 class MapYaml {
  public:
   MapYaml(const std::string& text, const std::string& file) : file_(file) {
@@ -163,7 +163,7 @@ MapFrame frame_from(const MapYaml& yaml) {
   return frame;
 }
 
-/// From a grey as a share of white; see docs/map.md.
+/// Cell from a grey value as a share of white; see docs/map.md.
 std::int8_t cell_from(double lightness, const MapFrame& frame) {
   if (frame.negate) lightness = 1.0 - lightness;
   if (frame.mode == Mode::kRaw) {

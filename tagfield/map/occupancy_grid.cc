@@ -7,12 +7,12 @@
 namespace tagfield {
 namespace {
 
-/// Squared distance that stands for "no source" [cells²]; sums of two stay exact in an int64.
+/// Squared distance that represents "no source" [cells²]; sums of two are exact in an int64.
 constexpr std::int64_t kNone = std::int64_t{1} << 40;
 
 using Squares = std::vector<std::int64_t>;
 
-/// Squared distances along a column to its nearest source: down, then up.
+/// Squared distances along a column to its nearest source: one pass up, one down.
 void column_distances(const OccupancyGrid& grid, const std::vector<bool>& is_source, int x,
                       Squares& squares) {
   std::int64_t away = -1;  // None seen yet.
@@ -31,7 +31,7 @@ class Envelope {
  public:
   explicit Envelope(std::size_t width) : sites_(width), starts_(width + 1) {}
 
-  /// Replaces f(0), …, f(width − 1) by the envelope at these places.
+  /// Replaces f(0), …, f(width − 1) by the envelope at these positions.
   void apply(std::int64_t* f, int width) {
     count_ = 0;
     for (int i = 0; i < width; ++i) {
@@ -48,7 +48,7 @@ class Envelope {
   }
 
  private:
-  /// First whole x at which the parabola of `b` is no higher than that of `a` < b.
+  /// First integer x at which the parabola of `b` is no higher than that of `a` < b.
   static std::int64_t first_below(const std::int64_t* f, std::int64_t a, std::int64_t b) {
     const std::int64_t numerator = (f[b] + b * b) - (f[a] + a * a);
     const std::int64_t denominator = 2 * (b - a);
@@ -70,7 +70,7 @@ class Envelope {
   }
 
   std::vector<std::int64_t> sites_;
-  std::vector<std::int64_t> starts_;  ///< From which whole x on a site's parabola is the lowest.
+  std::vector<std::int64_t> starts_;  ///< First integer x at which a site's parabola is the lowest.
   std::vector<std::int64_t> heights_;
   std::size_t count_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A map of the floor: which cells are free, occupied, unknown.
+/// Occupancy map of the floor: free, occupied and unknown cells.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 
 namespace tagfield {
 
-/// As nav_msgs/OccupancyGrid has it: row by row from the origin's corner, x first; 0 surely free to
-/// 100 surely occupied, -1 unknown. Axes along those of the map's frame M.
+/// Layout of nav_msgs/OccupancyGrid: row by row from the origin's corner, x first; from 0
+/// (certainly free) to 100 (certainly occupied), -1 unknown. Axes are aligned with the map frame M.
 struct OccupancyGrid {
   double resolution_m = 0.05;
   int width = 0;                                     ///< Cells along x.
@@ -27,12 +27,12 @@ struct OccupancyGrid {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   }
-  /// -1 beyond the map.
+  /// -1 outside the map.
   [[nodiscard]] std::int8_t at(int x, int y) const {
     return contains(x, y) ? cells[index(x, y)] : std::int8_t{-1};
   }
-  /// The cell that holds the point, which may lie beyond the map; beyond 1e9 cells, or not finite,
-  /// one that is on no map.
+  /// The cell that contains the point, which may be outside the map. A point beyond 1e9 cells or
+  /// not finite gives a cell outside any map.
   [[nodiscard]] Eigen::Vector2i cell_of(const Eigen::Vector2d& p) const {
     return {whole((p.x() - origin.x()) / resolution_m), whole((p.y() - origin.y()) / resolution_m)};
   }
@@ -42,7 +42,7 @@ struct OccupancyGrid {
 
  private:
   static int whole(double cells) {
-    // In this order NaN becomes 1e9, and no conversion overflows.
+    // In this order, NaN becomes 1e9, and no conversion overflows.
     return static_cast<int>(std::floor(std::max(-1e9, std::min(1e9, cells))));
   }
 };
@@ -56,8 +56,8 @@ inline bool is_free(std::int8_t cell) { return cell >= 0 && cell < kFreeBelow; }
 
 /// Distance from each cell's centre to the nearest centre of a cell for which `is_source` [m];
 /// exact (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled Functions, Theory of
-/// Computing 8, 2012, here in whole numbers); at most `most_m`, and that where there is no source.
-/// `is_source` and the result are row by row as the grid, and as long.
+/// Computing 8, 2012, here in integers). Clamped to `most_m`, which also applies if there is no
+/// source. `is_source` and the result have the order and size of the grid's cells.
 std::vector<float> distance_field(const OccupancyGrid& grid, const std::vector<bool>& is_source,
                                   double most_m);
 

@@ -19,9 +19,9 @@ using ClipperLib::Path;
 using ClipperLib::Paths;
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Clipper works on whole numbers: one is 0.1 mm.
+/// Clipper uses integers; one unit is 0.1 mm.
 constexpr double kUnitsPerMetre = 1e4;
-/// Beyond this [m] a drawing makes no sense and Clipper's numbers would run out.
+/// Larger coordinates [m] are meaningless in a drawing and would overflow in Clipper.
 constexpr double kMaxCoordinate = 1e7;
 
 /// The part of a convex polygon where side * (z - height) >= 0 (Sutherland and Hodgman's step).
@@ -45,7 +45,7 @@ IntPoint to_clipper(const Eigen::Vector2d& p) {
   return {std::llround(p.x() * kUnitsPerMetre), std::llround(p.y() * kUnitsPerMetre)};
 }
 
-/// Twice the area of the triangle a, b, c; positive where it turns left.
+/// Twice the area of the triangle a, b, c; positive if it turns left.
 ClipperLib::cInt turn(const IntPoint& a, const IntPoint& b, const IntPoint& c) {
   return (b.X - a.X) * (c.Y - a.Y) - (b.Y - a.Y) * (c.X - a.X);
 }
@@ -93,7 +93,7 @@ Paths united(const Paths& paths) {
   ClipperLib::Clipper clipper;
   Paths result;
   if (!clipper.AddPaths(paths, ClipperLib::ptSubject, true)) return result;  // None has an area.
-  // It catches whatever is thrown within, which is for lack of memory, and gives back nothing.
+  // Clipper catches all internal exceptions, which are out-of-memory errors, and returns false.
   if (!clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero,
                        ClipperLib::pftNonZero)) {
     throw std::bad_alloc();
@@ -101,7 +101,8 @@ Paths united(const Paths& paths) {
   return result;
 }
 
-/// Union by halves: inner edges vanish early, which is far quicker on a fine mesh than all at once.
+/// Union by halves: inner edges vanish early, which on a fine mesh is far faster than a single
+/// union.
 Paths united_by_halves(const Paths& paths, std::size_t begin, std::size_t end) {
   const auto at = [&paths](std::size_t i) {
     return paths.begin() + static_cast<std::ptrdiff_t>(i);
@@ -124,7 +125,7 @@ Polygon to_polygon(const Path& path) {
   return polygon;
 }
 
-/// The heights to draw between [m], and the margin around everything [m].
+/// Range of heights to draw [m], and margin around everything [m].
 struct Band {
   double low;
   double high;
@@ -215,7 +216,7 @@ std::vector<Silhouette> top_view(const Scene& scene, double z_low, double z_high
 std::string top_view_to_json(const std::vector<Silhouette>& silhouettes) {
   nlohmann::json list = nlohmann::json::array();
   for (const Silhouette& silhouette : silhouettes) list.push_back(to_json(silhouette));
-  // A name from a user's file may hold bytes that are not UTF-8.
+  // A name from a user's file may contain bytes that are not UTF-8.
   return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -20,8 +20,8 @@ constexpr std::int8_t kOccupied = 100;
 constexpr std::int8_t kUnknown = -1;
 constexpr double kMarginM = 1.0;
 constexpr double kMostCells = 4e8;
-/// Share of a cell by which a surface on a border between cells is taken to the greater one,
-/// whichever way its last bits were rounded.
+/// Share of a cell by which surfaces are shifted, so that one on a border between cells falls into
+/// the greater one, whatever its rounding.
 constexpr double kNudge = 1e-6;
 
 void require(bool right, const char* what, double value) {
@@ -38,7 +38,7 @@ void check(const Eigen::Vector2d& start, double z_m, double resolution_m, double
           reach_m);
 }
 
-/// All cells unknown.
+/// Grid around the segments and the start, with all cells unknown.
 OccupancyGrid grid_around(const std::vector<Segment>& segments, const Eigen::Vector2d& start,
                           double resolution_m) {
   Eigen::AlignedBox2d box(start);
@@ -58,8 +58,8 @@ OccupancyGrid grid_around(const std::vector<Segment>& segments, const Eigen::Vec
   return grid;
 }
 
-/// Marks the cells that a segment passes through, side by side (Amanatides and Woo, 1987), from
-/// the one that holds its first end to the one that holds its last.
+/// Marks the cells that a segment passes through, each sharing a side with the next (Amanatides and
+/// Woo, 1987), from the cell of its first end to that of its last.
 void mark(const Segment& segment, OccupancyGrid& grid) {
   const Eigen::Array2d from = (segment.from - grid.origin).array() / grid.resolution_m + kNudge;
   const Eigen::Array2d to = (segment.to - grid.origin).array() / grid.resolution_m + kNudge;
@@ -67,7 +67,7 @@ void mark(const Segment& segment, OccupancyGrid& grid) {
   const Eigen::Array2i last = to.floor().cast<int>();
   const Eigen::Array2i step = (last - cell).sign();
   const Eigen::Array2d along = to - from;
-  // Share of the segment at which it leaves the cell along x and along y.
+  // Fraction of the segment at which it leaves the cell along x or y.
   const auto leaves = [&](int axis) {
     if (cell[axis] == last[axis]) return 2.0;
     return (cell[axis] + (step[axis] > 0 ? 1 : 0) - from[axis]) / along[axis];
@@ -79,8 +79,8 @@ void mark(const Segment& segment, OccupancyGrid& grid) {
   }
 }
 
-/// Frees what is unknown and can be reached from `start` over sides of cells. Beyond the reach
-/// nothing is freed, as nobody has looked for surfaces there.
+/// Flood fill: frees unknown cells connected to `start` through sides of cells. Nothing beyond the
+/// reach is freed, as surfaces there are not included.
 void flood(const Eigen::Vector2d& start, double reach_m, OccupancyGrid& grid) {
   std::vector<Eigen::Vector2i> open{grid.cell_of(start)};
   grid.cells[grid.index(open[0].x(), open[0].y())] = kFree;
@@ -99,7 +99,7 @@ void flood(const Eigen::Vector2d& start, double reach_m, OccupancyGrid& grid) {
   }
 }
 
-/// Whether `is` holds for a cell no more than `reach` away by row and column.
+/// Whether `is` holds for any cell at most `reach` rows and columns away.
 template <typename Predicate>
 bool any_near(int x, int y, int reach, const Predicate& is) {
   for (int v = y - reach; v <= y + reach; ++v) {
@@ -120,7 +120,8 @@ void forget_hidden_surfaces(OccupancyGrid& grid) {
   }
 }
 
-/// The map on the truth's cells: cell (x, y) of the truth, or beyond it, is one of the map's.
+/// The map aligned with the truth's cells: (x, y) are cell indices of the truth, possibly outside
+/// it.
 class LaidOver {
  public:
   LaidOver(const OccupancyGrid& map, const OccupancyGrid& truth)
@@ -136,14 +137,14 @@ class LaidOver {
   [[nodiscard]] bool mapped(int x, int y) const { return is_occupied(map_at(x, y)); }
   [[nodiscard]] bool mapped_free(int x, int y) const { return is_free(map_at(x, y)); }
   [[nodiscard]] bool truly(int x, int y) const { return is_occupied(truth_.at(x, y)); }
-  /// Mapped, and no true one within two cells.
+  /// Whether the cell is mapped with no true one within two cells.
   [[nodiscard]] bool wrongly(int x, int y) const {
     return mapped(x, y) && !any_near(x, y, 2, [this](int u, int v) { return truly(u, v); });
   }
   [[nodiscard]] bool found(int x, int y) const {
     return any_near(x, y, 1, [this](int u, int v) { return mapped(u, v); });
   }
-  /// A cell of the map, by the truth's numbers.
+  /// A cell of the map, in the truth's indices.
   [[nodiscard]] Eigen::Vector2i of_map(int x, int y) const {
     return {x - offset_.x(), y - offset_.y()};
   }
@@ -160,7 +161,7 @@ class LaidOver {
   Eigen::Array2i offset_;  ///< The map's cell under the truth's cell (0, 0).
 };
 
-/// The cells from (x, y) to (x + dx, y + dy), without the first two and the last, are free.
+/// Whether the cells from (x, y) to (x + dx, y + dy), except the first two and the last, are free.
 bool LaidOver::free_between(int x, int y, int dx, int dy) const {
   const int distance = std::max(std::abs(dx), std::abs(dy));
   for (int k = 2; k < distance; ++k) {
@@ -187,7 +188,7 @@ double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// What the truth's cells say.
+/// Results that are counted over the truth's cells.
 void compare_true_cells(const OccupancyGrid& truth, const LaidOver& both, MapComparison& result) {
   std::size_t found = 0;
   std::size_t doubled = 0;

@@ -19,7 +19,7 @@ namespace {
 constexpr double kLookoutSpacing_m = 0.4;
 constexpr int kDirections = 720;
 
-/// Cells where the robot's middle can be, from `start` on.
+/// Cells that the robot's centre can reach from `start`.
 std::vector<bool> reachable_cells(const OccupancyGrid& truth, const Eigen::Vector2i& start,
                                   double radius_m) {
   std::vector<bool> occupied;
@@ -50,8 +50,8 @@ std::vector<bool> reachable_cells(const OccupancyGrid& truth, const Eigen::Vecto
   return reached;
 }
 
-/// Where a ray from the middle of a cell comes to, half a cell a step: cells as steps in a grid
-/// that is `width` wide, each once. That misses no more than a corner.
+/// Cells along a ray from the middle of a cell, sampled every half cell: index offsets in a grid of
+/// width `width`, each once. This misses corners at most.
 std::vector<std::ptrdiff_t> steps_along(double angle, int width, int count) {
   const Eigen::Vector2d direction(cosine(angle), sine(angle));
   std::vector<std::ptrdiff_t> steps;
@@ -64,7 +64,7 @@ std::vector<std::ptrdiff_t> steps_along(double angle, int width, int count) {
   return steps;
 }
 
-/// Which cells are free, with a rim around the grid that is not: 2 cells wider and higher.
+/// Free cells of the grid with a rim of cells that are not free: 2 cells wider and higher.
 std::vector<char> free_within_rim(const OccupancyGrid& grid) {
   const std::size_t width = static_cast<std::size_t>(grid.width) + 2;
   std::vector<char> all(width * (static_cast<std::size_t>(grid.height) + 2), 0);
@@ -77,7 +77,7 @@ std::vector<char> free_within_rim(const OccupancyGrid& grid) {
   return all;
 }
 
-/// Places in free_within_rim() from which the robot looks around.
+/// Indices in free_within_rim() of the viewpoints.
 std::vector<std::size_t> lookouts(const OccupancyGrid& truth, const std::vector<bool>& reached) {
   const int step =
       std::max(1, static_cast<int>(std::lround(kLookoutSpacing_m / truth.resolution_m)));
@@ -92,14 +92,15 @@ std::vector<std::size_t> lookouts(const OccupancyGrid& truth, const std::vector<
   return all;
 }
 
-/// Marks the free cells along all rays, up to the first that is not free: by direction, as rays in
-/// one direction take the same steps.
+/// Marks the free cells along all rays, up to the first that is not free. Ordered by direction, as
+/// rays in one direction take the same steps.
 std::vector<char> seen_cells(const OccupancyGrid& truth, const std::vector<bool>& reached) {
   const std::vector<char> is_open = free_within_rim(truth);
   const std::vector<std::size_t> from = lookouts(truth, reached);
   std::vector<char> marked(is_open.size(), 0);
   const int width = truth.width + 2;
-  // Half a cell at 45° leads 0.35 columns and rows on: then a ray has left the grid.
+  // Half a cell at 45° advances 0.35 columns and rows: after `count` steps, a ray has left the
+  // grid.
   const int count = 3 * (std::max(truth.width, truth.height) + 1);
   for (int i = 0; i < kDirections; ++i) {
     const std::vector<std::ptrdiff_t> steps = steps_along(i * kTwoPi / kDirections, width, count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The part of a world that a robot's laser can see at all.
+/// The part of a world that a robot's laser can see.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,11 +9,10 @@
 
 namespace tagfield {
 
-/// `truth` (see true_map()) with those cells alone that are seen from somewhere: in a straight line
-/// over free cells, from a place that the middle of a round robot of `radius_m` can reach from
-/// `start`. Nooks that no laser on that robot looks into become unknown, with their walls. Looks
-/// from places 0.4 m apart, in 720 directions each. Throws Error where the robot does not fit at
-/// `start`.
+/// `truth` (see true_map()) reduced to the cells with a line of sight over free cells to some
+/// position that the centre of a round robot of `radius_m` can reach from `start`. Areas that no
+/// laser on that robot can see become unknown, including their walls. Rays are cast from positions
+/// 0.4 m apart, in 720 directions each. Throws Error if the robot does not fit at `start`.
 OccupancyGrid visible_map(const OccupancyGrid& truth, const Eigen::Vector2d& start,
                           double radius_m);
 

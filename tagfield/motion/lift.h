@@ -9,7 +9,7 @@
 
 namespace tagfield {
 
-/// The joint starts at its lower end at time 0 and goes up and down at constant speed for ever.
+/// The joint starts at its lower end at time 0 and moves up and down at constant speed forever.
 struct Lift {
   double travel_m = 0.0;  ///< 0 for no joint.
   double speed_m_s = 0.35;
@@ -18,16 +18,16 @@ struct Lift {
 /// Height of the joint above its lower end [m] at `time`.
 double lift_height(const Lift& lift, Time time);
 
-/// Goes up and down as lift_height() says, until it is told a height: then it goes there at the
+/// Moves up and down as given by lift_height() until a height is commanded; then moves there at the
 /// lift's speed and stays.
 class LiftGuide {
  public:
   explicit LiftGuide(const Lift& lift) : lift_(lift) {}
 
-  /// Takes effect at the next call of height(). Heights beyond an end are that end. Returns false,
-  /// and leaves all as it was, if it is not finite.
+  /// Takes effect at the next call of height(). Heights are clamped to the lift's ends. Returns
+  /// false, without effect, if the height is not finite.
   bool go_to(double height_m);
-  /// Height above the lower end [m] at `time`. To be called with times that don't fall.
+  /// Height above the lower end [m] at `time`. To be called with times that don't decrease.
   double height(Time time);
 
  private:

@@ -23,8 +23,8 @@ Variances variances_of(const PlanarPose& increment, const OdometryNoise& noise) 
           squared(noise.alpha3) * way + squared(noise.alpha4) * turn};
 }
 
-/// The chord of an arc has the arc's middle heading. Not taken from x and y, which have no
-/// direction where a robot turns on the spot.
+/// The direction of an arc's chord is the heading at the middle of the arc. Not computed from x and
+/// y, which have no direction when a robot turns on the spot.
 Eigen::Vector2d middle_heading(const PlanarPose& increment) {
   return {cosine(0.5 * increment.yaw), sine(0.5 * increment.yaw)};
 }
@@ -42,7 +42,7 @@ PlanarPose noisy_increment(const PlanarPose& increment, const OdometryNoise& noi
                            RandomStream& stream) {
   const Variances variances = variances_of(increment, noise);
   const auto [first_draw, second_draw] = standard_normal_pair(stream);
-  // Correlated by a half.
+  // With correlation ½.
   const double sigma = std::sqrt(variances.heading / 3.0);
   const double first = sigma * first_draw;
   const double second = sigma * (0.5 * first_draw + std::sqrt(0.75) * second_draw);

@@ -45,7 +45,7 @@ Eigen::Vector2d PathFollower::point_at(double arc_length) const {
   return path_[end - 1] + fraction * (path_[end] - path_[end - 1]);
 }
 
-/// Moves on to the nearest point of the path, looking only a little ahead, so that a path that
+/// Advances to the nearest point of the path, searching only a little ahead, so that a path that
 /// crosses itself is not cut short.
 void PathFollower::follow_progress(const Eigen::Vector2d& position) {
   const double limit = progress_ + style_.look_ahead_m;
@@ -81,7 +81,7 @@ BodyVelocity PathFollower::next(const PlanarPose& pose, double seconds) {
   if (turning_in_place_) {
     return {0.0, std::clamp(bearing / seconds, -most_turn, most_turn)};
   }
-  // The arc through the target that starts along the heading has curvature 2 sin(bearing)/distance.
+  // The arc to the target, tangent to the heading, has the curvature 2 sin(bearing)/distance.
   const double curvature = 2.0 * sine(bearing) / std::max(to_target.norm(), 1e-9);
   const double forward =
       std::min(style_.speed_m_s, most_turn / std::max(std::abs(curvature), 1e-9));

@@ -10,15 +10,15 @@
 
 namespace tagfield {
 
-/// Follows the polyline from the robot's start over all waypoints by pure pursuit (Coulter, 1992):
-/// it steers along the arc to the point `look_ahead_m` further on the path, which rounds the
-/// corners; where that point lies beside or behind it, it turns in place first.
+/// Follows the polyline from the robot's start through all waypoints by pure pursuit (Coulter,
+/// 1992): it steers along the arc to the point `look_ahead_m` further along the path, which rounds
+/// the corners. If that point lies beside or behind the robot, it turns in place first.
 class PathFollower {
  public:
   PathFollower(const PlanarPose& start, const std::vector<Eigen::Vector2d>& waypoints,
                const DrivingStyle& style);
 
-  /// What to drive for the next `seconds`; zero once at the end.
+  /// The velocity to drive for the next `seconds`; zero once at the end.
   BodyVelocity next(const PlanarPose& pose, double seconds);
 
   /// Whether the last waypoint is reached.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Decides how a robot moves: by commands from outside, or else along its waypoints.
+/// Decides how a robot moves: by external commands, or else along its waypoints.
 #pragma once
 
 #include <optional>
@@ -14,27 +14,27 @@ namespace tagfield {
 
 struct DriverSettings {
   SpeedLimits limits;
-  /// How long a command holds.
+  /// How long a command is valid.
   Duration command_timeout = std::chrono::milliseconds(500);
-  /// How often the path's steering is decided anew.
+  /// Interval between steering decisions on the path.
   Duration steering_interval = std::chrono::milliseconds(50);
 };
 
-/// A command drives the robot until it is as old as the timeout; without one the robot drives along
-/// its waypoints, if there are any left, and stands otherwise. Knows no clock but the times that it
-/// is given, so the same calls give the same motion.
+/// A command drives the robot until the timeout; without one the robot drives along its remaining
+/// waypoints, if any, and otherwise stands still. Uses no clock other than the times it is given,
+/// so the same calls give the same motion.
 class RobotDriver {
  public:
   explicit RobotDriver(const DriverSettings& settings) : settings_(settings) {}
 
-  /// Gives the waypoints to drive.
+  /// Sets the waypoints to drive.
   void set_path(PathFollower path) { path_ = std::move(path); }
-  /// Takes a command at time `now`. Returns false, and leaves all as it was, if it is not finite.
+  /// Takes a command at time `now`. Returns false, without effect, if it is not finite.
   bool command(const BodyVelocity& velocity, Time now);
-  /// The velocity to have at `now`, at which the robot is at `pose`. To be called with times that
-  /// don't fall.
+  /// The velocity to drive at `now`, given the robot's `pose` then. To be called with times that
+  /// don't decrease.
   BodyVelocity next(const PlanarPose& pose, Time now);
-  /// Whether there are waypoints, and the last of them is reached.
+  /// Whether there are waypoints and the last of them has been reached.
   [[nodiscard]] bool finished() const { return path_ && path_->finished(); }
 
  private:
@@ -48,7 +48,7 @@ class RobotDriver {
   DriverSettings settings_;
   std::optional<PathFollower> path_;
   std::optional<Command> command_;
-  std::optional<Time> steered_;  ///< When the path's steering was decided last.
+  std::optional<Time> steered_;  ///< Time of the last steering decision.
   BodyVelocity steering_;
   std::optional<Time> last_;  ///< Call of next().
   BodyVelocity velocity_;

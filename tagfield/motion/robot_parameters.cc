@@ -17,7 +17,7 @@ namespace {
 constexpr double kLeastRate = 1e-6;  // [Hz]
 constexpr double kMostRate = 1e6;    // [Hz]
 
-/// Looks parameters up, and notes which names there are.
+/// Looks up parameters and records the known names.
 class Reader {
  public:
   explicit Reader(const std::vector<RawParameter>& parameters) : parameters_(parameters) {}
@@ -30,7 +30,7 @@ class Reader {
     if (const RawParameter* const given = find(key)) value = number_in(*given);
   }
 
-  /// A rate [Hz] > 0 of which a clock of nanoseconds can keep the interval.
+  /// A rate [Hz] > 0 whose interval can be represented in nanoseconds.
   void rate(const char* key, double& value) {
     const RawParameter* const given = find(key);
     if (given == nullptr) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a simulated robot tells of itself, by whatever middleware.
+/// What a simulated robot publishes about itself, whatever the middleware.
 #pragma once
 
 #include <Eigen/Core>

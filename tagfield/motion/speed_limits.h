@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a robot's drive can do, and keeping commands within it.
+/// Limits of a robot's drive, and clamping of commands to them.
 #pragma once
 
 #include "tagfield/motion/unicycle.h"
@@ -15,8 +15,8 @@ struct SpeedLimits {
   double turn_acceleration_rad_s2 = 3.0;
 };
 
-/// The velocity nearest to `wanted` that the drive, which has velocity `present`, can have
-/// `seconds` later. `wanted` is finite.
+/// The velocity nearest to `wanted` that a drive with the velocity `present` can reach within
+/// `seconds`. `wanted` must be finite.
 BodyVelocity limited(const BodyVelocity& wanted, const BodyVelocity& present,
                      const SpeedLimits& limits, double seconds);
 

@@ -26,17 +26,17 @@ struct BodyVelocity {
   double turn = 0.0;
 };
 
-/// Wheels of the robot; the defaults are a Pioneer P3-AT's.
+/// Wheel geometry; the defaults are those of a Pioneer P3-AT.
 struct DriveGeometry {
   double wheel_radius_m = 0.111;
   double track_m = 0.4;  ///< d: between the centres of the left and right wheels.
 };
 
-/// Limits and manner of driving; the defaults suit a P3-AT.
+/// Limits and style of driving; the defaults suit a P3-AT.
 struct DrivingStyle {
   double speed_m_s = 0.3;        ///< Along the path.
   double most_turn_rad_s = 1.0;  ///< Limit of |ω|.
-  double look_ahead_m = 0.5;     ///< How far ahead on the path the robot steers to.
+  double look_ahead_m = 0.5;     ///< How far ahead on the path the robot aims.
 };
 
 /// Eqs. (7) and (8): v = r(ω_R + ω_L)/2, ω = r(ω_R − ω_L)/d.

@@ -27,7 +27,8 @@ void WheelOdometry::update(const WheelAngles& angles) {
   travel_.turn += moved.turn;
 }
 
-/// First order in the step: P' = F P Fᵀ + G Q Gᵀ, Q the variances of the two sides' travel.
+/// To first order in the step: P' = F P Fᵀ + G Q Gᵀ, where Q holds the variances of the two sides'
+/// travel.
 void WheelOdometry::grow_covariance(const BodyVelocity& moved, const WheelSpeeds& turned) {
   const double heading = pose_.yaw + moved.turn / 2.0;
   const auto [s, c] = sine_cosine(heading);

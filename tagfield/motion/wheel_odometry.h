@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A robot's pose as its wheels' encoders tell it.
+/// A robot's pose from its wheel encoders.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,29 +17,29 @@ struct WheelAngles {
 };
 
 struct OdometrySettings {
-  /// The track is the effective one: that with which turning on the spot comes out right, which is
-  /// wider than the wheels stand where they skid.
+  /// The track is the effective one, with which turns on the spot come out right. If the wheels
+  /// skid, it is larger than the distance between them.
   DriveGeometry drive;
   double encoder_step_rad = 0.0;  ///< Angle of one encoder tick; 0 for an ideal encoder.
-  /// Stated error of a side's travel: its σ after d metres is wheel_noise·√d [m/√m].
+  /// Assumed error of a side's travel: its σ after d metres is wheel_noise·√d [m/√m].
   double wheel_noise = 0.0;
 };
 
-/// Integrates the wheels' motion into a pose (eqs. (6)–(8)), exactly for constant speeds between
-/// two calls, and carries its covariance along.
+/// Integrates the wheels' motion into a pose (eqs. (6)–(8)), exact for constant speeds between two
+/// calls, and propagates its covariance.
 class WheelOdometry {
  public:
   explicit WheelOdometry(const OdometrySettings& settings) : settings_(settings) {}
 
-  /// To be called with the wheels' angles, often; the first call says where they begin.
+  /// To be called often with the wheels' angles; the first call sets the reference.
   void update(const WheelAngles& angles);
 
-  /// From the place of the first call.
+  /// Relative to the pose at the first call.
   [[nodiscard]] const PlanarPose& pose() const { return pose_; }
   /// Of x, y [m] and yaw [rad], by linear propagation of the wheels' errors.
   [[nodiscard]] const Eigen::Matrix3d& covariance() const { return covariance_; }
-  /// Sum of all motion since the first call, forward [m] and turning [rad]: its differences over
-  /// a while are the mean velocity in it.
+  /// Sum of all motion since the first call, forward [m] and turning [rad]; its difference over an
+  /// interval gives the mean velocity.
   [[nodiscard]] const BodyVelocity& travel() const { return travel_; }
 
  private:

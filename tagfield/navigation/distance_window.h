@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How far the nearest standing obstacle is from each place around the robot.
+/// Distance to the nearest static obstacle at each point around the robot.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,17 +10,17 @@
 
 namespace tagfield {
 
-/// A square of the map's cells with the distance of each to the nearest obstacle.
+/// A square window of map cells with the distance from each cell to the nearest obstacle.
 class DistanceWindow {
  public:
-  /// `half_m` around `centre_M`: occupied cells of `map` and cells that hold one of `points_M`.
-  /// Distances are no more than two cells above `most_m`. `map` has a resolution > 0 and may be
-  /// empty else.
+  /// Covers `half_m` to each side of `centre_M`. Obstacles are the occupied cells of `map` and the
+  /// cells that contain one of `points_M`. Distances are capped at no more than two cells above
+  /// `most_m`. `map` must have a resolution > 0 but may otherwise be empty.
   DistanceWindow(const OccupancyGrid& map, const std::vector<Eigen::Vector2d>& points_M,
                  const Eigen::Vector2d& centre_M, double half_m, double most_m);
 
-  /// Between the centres of the four cells around `p_M` bilinearly [m], which is within 0.7 cells
-  /// of the distance to the nearest obstacle's point; 0 beyond the window.
+  /// Distance [m], interpolated bilinearly between the centres of the four cells around `p_M`:
+  /// within 0.7 cells of the distance to the nearest obstacle point. 0 outside the window.
   [[nodiscard]] double at(const Eigen::Vector2d& p_M) const;
 
  private:

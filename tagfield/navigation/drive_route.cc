@@ -7,12 +7,12 @@
 namespace tagfield {
 namespace {
 
-/// The way ahead is watched so far for what is not on the map [m],
+/// How far ahead the path is monitored for obstacles that are not on the map [m],
 constexpr double kWatched = 3.0;
-/// and what stands on it so long is driven around [s].
+/// and how long they must block it before the robot drives around them [s].
 constexpr double kBlockedFor = 0.5;
 constexpr double kBetweenPlans = 1.0;
-/// Farther from its way than this the robot gets a new one [m].
+/// Distance from its path at which the robot replans [m].
 constexpr double kAstray = 0.5;
 
 }  // namespace

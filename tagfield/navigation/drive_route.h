@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The way that a driving robot follows, and when it takes another.
+/// The path that a driving robot follows, and when it replans.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,30 +18,30 @@ class DriveRoute {
  public:
   DriveRoute(const RobotRoom& size, const PursuitStyle& style) : size_(size), style_(style) {}
 
-  /// Begins a drive to `goal_M`. Returns why there is no way; "" where there is one.
+  /// Begins a drive to `goal_M`. Returns why there is no path; "" if there is one.
   std::string begin(const DriveSenses& senses, const PlanarPose& pose_M, const PlanarPose& goal_M,
                     Time now);
-  /// Looks for a way around what was seen, or, where there is none, past the map's obstacles only:
-  /// what was seen may go away. Where there is none either it keeps the way that it has. Returns
-  /// whether it has a new one.
+  /// Replans around the map's obstacles and those seen by the laser. If there is no such path,
+  /// ignores the latter, since they may go away. If there is still none, keeps the current path.
+  /// Returns whether the path is new.
   bool plan_anew(const DriveSenses& senses, const PlanarPose& pose_M, Time now);
-  /// Moves on along the way to where the robot is, and plans anew where it is far off its way,
-  /// where something has stood on the way for a while, and on a new map. Returns whether it has a
-  /// new way.
+  /// Advances along the path to the robot's position. Replans if the robot is far off its path, if
+  /// something has blocked the path for a while, or if the map is new. Returns whether the path is
+  /// new.
   bool follow(const DriveSenses& senses, const PlanarPose& pose_M, Time now);
   void map_changed() { map_is_new_ = true; }
-  /// Time has gone back to `now`.
+  /// Handles a jump of time back to `now`.
   void rewind(Time now);
   void clear();
 
-  /// Not before begin() has found a way, nor after clear().
+  /// Must not be called before begin() has found a path, nor after clear().
   [[nodiscard]] PathPursuit& pursuit() { return *pursuit_; }
   [[nodiscard]] const PathPursuit& pursuit() const { return *pursuit_; }
-  /// From where it was planned to the goal [m, map].
+  /// From the robot's position at planning time to the goal [m, map].
   [[nodiscard]] const std::vector<Eigen::Vector2d>& way() const { return way_; }
-  /// Where something not on the map stood in the way last.
+  /// The last position at which an obstacle that is not on the map blocked the path.
   [[nodiscard]] const std::optional<Eigen::Vector2d>& block_M() const { return block_M_; }
-  /// Why the last plan failed; "" if it did not.
+  /// Why the last planning attempt failed; "" if it succeeded.
   [[nodiscard]] const std::string& refusal() const { return refusal_; }
 
  private:

@@ -12,19 +12,20 @@
 namespace tagfield {
 namespace {
 
-/// A return is on the map where an occupied cell is nearer than this: cells, the map's errors and
-/// the pose's, and the pose's yaw at a distance.
+/// A return is on the map if an occupied cell is nearer than this. Allows for the cell size, the
+/// errors of map and pose, and, per metre of range, the error of the yaw.
 constexpr double kOnMapWithin = 0.15;
 constexpr double kOnMapPerMetre = 0.01;
-/// A scan may be so old, or so far ahead of now [s].
+/// Maximum age of a usable scan, or time ahead of now [s].
 constexpr double kFresh = 0.5;
-/// Share of a scan's beams that must say something.
+/// Least fraction of a scan's beams that must be valid.
 constexpr double kLeastValid = 0.1;
 constexpr double kTrailSpacing = 0.1;
 constexpr std::size_t kTrailPoints = 60;
-/// Added to the radius within which ground is free where the robot was: its trail has gaps [m].
+/// Added to the robot's radius, within which the floor is free where it has been: its trail has
+/// gaps [m].
 constexpr double kTrodden = 0.02;
-/// Added to a moving obstacle's radius where its points are forgotten [m].
+/// Added to a moving obstacle's radius when its points are forgotten [m].
 constexpr double kAround = 0.1;
 
 }  // namespace
@@ -69,7 +70,7 @@ void DriveSenses::see(const LaserScan& scan, const PlanarPose& pose_M) {
     const ScanReturn& hit = seen.returns[i];
     const Eigen::Vector2i cell = map_.cell_of(hit.point_M);
     is_on_map[i] = distance_to_map(hit.point_M) < kOnMapWithin + kOnMapPerMetre * hit.range_m;
-    // On unknown ground any wall that comes into view would seem to move.
+    // In unknown space any wall that comes into view would seem to move.
     may_move[i] = !is_on_map[i] && map_.at(cell.x(), cell.y()) >= 0;
   }
   const std::vector<bool> moves = tracker_.update(seen, may_move);
@@ -112,7 +113,7 @@ DistanceWindow DriveSenses::window(const PlanarPose& pose_M, double half_m, doub
   return {map_, points_around(here, half_m), here, half_m, most_m};
 }
 
-/// Of many noisy points the nearest few lie in front of where they should.
+/// Skips the nearest few points: of many noisy ones, they lie too near.
 double DriveSenses::clear_at(const Eigen::Vector2d& p_M) const {
   constexpr std::size_t kPassedOver = 2;
   std::vector<double> distances(kPassedOver + 1, kMostToMap);

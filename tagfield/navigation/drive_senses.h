@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// All that a driving robot knows of its surroundings: the map, what its laser saw, where it was.
+/// All that a driving robot knows about its surroundings: the map, what its laser saw, where it has
+/// been.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,30 +18,30 @@ namespace tagfield {
 
 class DriveSenses {
  public:
-  /// `radius_m` is of the robot's outline.
+  /// `radius_m` is the radius of the robot's footprint.
   DriveSenses(const RigidTransform& X_RL, double radius_m) : X_RL_(X_RL), radius_m_(radius_m) {}
 
   /// Throws Error on a map that is empty or malformed.
   void set_map(const OccupancyGrid& map);
   [[nodiscard]] const OccupancyGrid& map() const { return map_; }
 
-  /// Takes a scan; one that is older than the last makes all that was seen before forgotten.
+  /// Adds a scan. A scan older than the last one discards all that was seen before.
   void see(const LaserScan& scan, const PlanarPose& pose_M);
-  /// Where the robot is now, and how fast.
+  /// Sets the robot's current pose and velocity.
   void be_at(const PlanarPose& pose_M, const BodyVelocity& velocity);
-  /// Forgets all but the map.
+  /// Forgets everything except the map.
   void forget();
 
-  /// Why there is nothing to go by at `now`, in words; "" where there is a scan.
+  /// Why there is no usable scan at `now`, in words; "" if there is one.
   [[nodiscard]] std::string blindness(Time now) const;
-  /// The standing obstacles around `pose_M`.
+  /// The static obstacles around `pose_M`.
   [[nodiscard]] DistanceWindow window(const PlanarPose& pose_M, double half_m, double most_m) const;
   /// What rollouts from `pose_M` must keep clear of; refers to `window` and to this.
   [[nodiscard]] Surroundings surroundings(const DistanceWindow& window, const PlanarPose& pose_M,
                                           Time now) const;
-  /// What stands and is not on the map.
+  /// Points of static obstacles that are not on the map.
   [[nodiscard]] std::vector<Eigen::Vector2d> not_on_map() const { return memory_.not_on_map(); }
-  /// Distance from `p_M` to the nearest occupied cell's centre, at most kMostToMap [m].
+  /// Distance from `p_M` to the centre of the nearest occupied cell, at most kMostToMap [m].
   [[nodiscard]] double distance_to_map(const Eigen::Vector2d& p_M) const;
 
   static constexpr double kMostToMap = 1.0;

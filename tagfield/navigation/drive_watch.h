@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Whether a drive gets anywhere: when to try something else, and when to give up.
+/// Whether a drive makes progress: when to try something else, and when to give up.
 #pragma once
 
 #include "tagfield/base/time.h"
 
 namespace tagfield {
 
-/// Watches what remains to be driven and turned, in metres.
+/// Monitors the remaining distance and rotation, both expressed in metres.
 class DriveWatch {
  public:
-  /// A new drive, or a new way of the same one, begins at `now`.
+  /// Begins a new drive, or a new path of the same drive, at `now`.
   void begin(double remaining_m, Time now);
-  /// A longer way was found round something. That may take a while, so patience begins anew, but
-  /// only kMostDetours times until the robot has come nearer by kCounts.
+  /// A longer path around an obstacle was found. Since it may take a while, the timers restart, but
+  /// at most kMostDetours times until the robot has come nearer by kCounts.
   void detour(double remaining_m, Time now);
   void update(double remaining_m, Time now);
-  /// Something else was tried until now: stuck_s() begins anew.
+  /// A recovery was tried until now: stuck_s() restarts.
   void tried(Time now) { tried_ = now; }
 
-  /// Since it got nearer than ever on this way [s].
+  /// Time since the robot last got nearer to the goal than ever before on this path [s].
   [[nodiscard]] double waited_s(Time now) const { return to_seconds(now - nearer_); }
-  /// The same, or since something else was tried [s].
+  /// Time since then or since the last recovery, whichever is later [s].
   [[nodiscard]] double stuck_s(Time now) const {
     return to_seconds(now - (tried_ > nearer_ ? tried_ : nearer_));
   }
 
-  static constexpr double kNearer = 0.05;  ///< Less is no progress [m].
+  static constexpr double kNearer = 0.05;  ///< Anything less is not progress [m].
   static constexpr double kCounts = 2.0;   ///< [m]
   static constexpr int kMostDetours = 5;
 

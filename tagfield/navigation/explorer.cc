@@ -9,11 +9,12 @@
 namespace tagfield {
 namespace {
 
-/// Looks from or at places so near to each other are at the same frontier, as the map grows.
+/// While the map grows, looks whose points or viewpoints are this near to each other are at the
+/// same frontier.
 constexpr double kSameFrontier = 1.0;
-/// A place is seen when no frontier is left so near to it.
-constexpr double kSamePlace = 0.5;
-/// A robot so near to where it was sent has got there.
+/// A point has been seen when no frontier is left this near to it.
+constexpr double kSamePosition = 0.5;
+/// A robot this near to its goal has arrived.
 constexpr double kThere = 0.3;
 
 double distance(const PlanarPose& a, const PlanarPose& b) {
@@ -36,11 +37,12 @@ OccupancyGrid Explorer::with_start(OccupancyGrid map) const {
   return map;
 }
 
-/// None are left in a stage: on to the next.
+/// When none are left in a stage, moves on to the next.
 std::vector<Frontier> Explorer::open_ones(const OccupancyGrid& map, const OccupancyGrid& drivable,
                                           const PlanarPose& pose_M) {
   FrontierOptions options = options_.frontiers;
-  // Walls may yet turn out a cell thicker: where the robot gets in, it is to get out again.
+  // Walls may yet turn out a cell thicker, and the robot must be able to get out wherever it gets
+  // in.
   options.margin_m += map.resolution_m;
   if (stage_ == Stage::kFrontiers) {
     std::vector<Frontier> open = frontiers(map, drivable, pose_M, looks_, options);
@@ -64,7 +66,7 @@ std::optional<PlanarPose> Explorer::next(const OccupancyGrid& map, const Occupan
     if (has_ended) stage_ = Stage::kFinished;
     return std::nullopt;
   }
-  if (look_ && !has_ended && has_frontier_near(map, look_->at_M, kSamePlace)) {
+  if (look_ && !has_ended && has_frontier_near(map, look_->at_M, kSamePosition)) {
     return std::nullopt;
   }
   const std::vector<Frontier> open = open_ones(map, drivable, pose_M);
@@ -74,7 +76,7 @@ std::optional<PlanarPose> Explorer::next(const OccupancyGrid& map, const Occupan
     turned.yaw += turns_ == 0 ? options_.look_around_rad : -options_.look_around_rad;
     if (turns_++ < 2 && distance(pose_M, turned) < kThere) return turned;
   }
-  // Also a place that was looked at and still shows as a frontier has nothing more to show.
+  // A point that was looked at has nothing more to show, even if it still appears as a frontier.
   const bool leaves = look_ && has_ended;
   if (leaves) looks_.push_back(*look_);
   look_.reset();

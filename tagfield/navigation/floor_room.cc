@@ -36,8 +36,8 @@ int unknown_neighbours(const std::vector<std::int8_t>& cells, std::size_t i, std
   return count - 1;
 }
 
-/// How much farther each cell is from occupied ones than it must be [m], up to a little more than
-/// the clearance.
+/// Distance of each cell from occupied ones beyond the required minimum [m], up to slightly more
+/// than the clearance.
 std::vector<float> rooms(const OccupancyGrid& grid, const RobotRoom& size) {
   std::vector<std::uint8_t> sources(grid.cells.size());
   std::transform(grid.cells.begin(), grid.cells.end(), sources.begin(),
@@ -57,8 +57,8 @@ bool borders_on_free(const OccupancyGrid& grid, int x, int y) {
          grid.at(x, y - 1) == kFreeCell || grid.at(x, y + 1) == kFreeCell;
 }
 
-/// Lowers the room beside unknown ground, so that it is below 0 nearer than `least_m` to it: from
-/// each cell at its edge, as these are few.
+/// Lowers the distances next to unknown space, so that they are below 0 nearer than `least_m` to
+/// it. Starts from the cells at its edge, as these are few.
 void keep_from_unknown(const OccupancyGrid& grid, double least_m, std::vector<float>& room) {
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
@@ -113,7 +113,7 @@ OccupancyGrid without_specks(const OccupancyGrid& map) {
   for (int y = 1; y + 1 < grid.height; ++y) {
     for (int x = 1; x + 1 < grid.width; ++x) {
       const std::size_t i = grid.index(x, y);
-      // A cell at the straight edge of unknown ground has five neighbours that are not free.
+      // A cell at a straight edge of unknown space has five neighbours that are not free.
       if (before[i] == kUnknownCell && unknown_neighbours(before, i, width) < 4) {
         grid.cells[i] = kFreeCell;
       }

@@ -15,28 +15,30 @@
 namespace tagfield {
 namespace {
 
-/// Looks at places so near to each other, or from such places in such directions, are the same.
+/// Looks are the same if their points are this near to each other, or if their viewpoints are this
+/// near and their directions this similar.
 constexpr double kSameView = 0.5;
 constexpr double kSameDirection = 0.5;
-/// Metres of way that a metre of frontier is worth, and from which size on more is worth no more.
+/// Metres of path that a metre of frontier is worth, and the size above which more is worth
+/// nothing.
 constexpr double kWayForSize = 1.0;
 constexpr double kMostSize = 5.0;
 /// The robot need not come nearer to a frontier than this to look into it.
 constexpr double kNearEnough = 0.5;
-/// What is seen at less than this (sine) counts as seen at this.
+/// Least sine of the viewing angle; smaller ones count as this.
 constexpr double kLeastSlant = 0.05;
 constexpr std::size_t kCellsBetweenTries = 10;
 
 using Cells = std::vector<Eigen::Vector2i>;
 
-/// Free, and beside unknown ground along x or y.
+/// Whether a cell is free and has an unknown neighbour along x or y.
 bool is_frontier(const OccupancyGrid& grid, int x, int y) {
   if (grid.at(x, y) != 0) return false;
   const auto unknown = [&](int i, int j) { return grid.contains(i, j) && grid.at(i, j) < 0; };
   return unknown(x - 1, y) || unknown(x + 1, y) || unknown(x, y - 1) || unknown(x, y + 1);
 }
 
-/// The cells connected to the first of `cells`, which are taken out of `is_open`.
+/// Grows `cells` by all cells connected to its first, and removes them from `is_open`.
 void grow(const OccupancyGrid& grid, std::vector<bool>& is_open, Cells& cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (int y = cells[i].y() - 1; y <= cells[i].y() + 1; ++y) {
@@ -77,7 +79,7 @@ Eigen::Vector2i middle_of(const Cells& cells) {
   });
 }
 
-/// The unknown cell beside the frontier's cell `cell`.
+/// An unknown cell next to the frontier cell `cell`.
 Eigen::Vector2i unknown_beside(const OccupancyGrid& grid, const Eigen::Vector2i& cell) {
   for (const Eigen::Vector2i& step : {Eigen::Vector2i(1, 0), Eigen::Vector2i(-1, 0),
                                       Eigen::Vector2i(0, 1), Eigen::Vector2i(0, -1)}) {
@@ -87,7 +89,7 @@ Eigen::Vector2i unknown_beside(const OccupancyGrid& grid, const Eigen::Vector2i&
   return cell;
 }
 
-/// Whether on the line between two places all is free up to the first unknown cell.
+/// Whether the line between two points is free up to the first unknown cell.
 bool can_see_unknown(const OccupancyGrid& grid, const Eigen::Vector2d& from,
                      const Eigen::Vector2d& to) {
   std::int8_t last = 0;
@@ -98,7 +100,7 @@ bool can_see_unknown(const OccupancyGrid& grid, const Eigen::Vector2d& from,
   return last < 0;
 }
 
-/// What a search for a place to stand needs.
+/// Input of the search for a viewpoint.
 struct Reach {
   const OccupancyGrid& seen;
   const FloorRoom& floor;
@@ -131,8 +133,7 @@ void for_all_that_see(const OccupancyGrid& grid, const Eigen::Vector2i& unknown,
   }
 }
 
-/// Direction from what is known to what is not about a frontier's cell, of length 1; 0 where that
-/// is not clear.
+/// Unit vector from known to unknown space at a frontier cell; 0 where that is ambiguous.
 Eigen::Vector2d into_unknown(const OccupancyGrid& grid, const Eigen::Vector2i& cell) {
   constexpr int kReach = 3;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -154,9 +155,8 @@ bool is_worse(const Place& a, const Place& b) {
   return a.view < b.view || (a.view == b.view && a.cell > b.cell);
 }
 
-/// The places that can be reached and see `unknown`, as a heap with the best at the front: a beam's
-/// share of the sight grows with the angle at which it looks in, and with nearness up to
-/// kNearEnough.
+/// The reachable positions that see `unknown`, as a heap with the best at the front. The view
+/// improves with the angle at which it looks in, and with proximity up to kNearEnough.
 std::vector<Place> places_to_see(const Reach& reach, const Eigen::Vector2i& target,
                                  const Eigen::Vector2i& unknown) {
   const OccupancyGrid& grid = reach.seen;
@@ -174,7 +174,7 @@ std::vector<Place> places_to_see(const Reach& reach, const Eigen::Vector2i& targ
   return places;
 }
 
-/// The best place to look into the unknown beside `target` from.
+/// The best position from which to look into the unknown space next to `target`.
 std::optional<Eigen::Vector2i> standing_place(const Reach& reach, const Eigen::Vector2i& target) {
   const OccupancyGrid& grid = reach.seen;
   const Eigen::Vector2i unknown = unknown_beside(grid, target);
@@ -183,12 +183,12 @@ std::optional<Eigen::Vector2i> standing_place(const Reach& reach, const Eigen::V
   std::optional<std::size_t> last;
   for (; !places.empty(); places.pop_back()) {
     std::pop_heap(places.begin(), places.end(), is_worse);
-    if (places.back().cell == last) continue;  // Several rays may have come by.
+    if (places.back().cell == last) continue;  // Several rays may have passed here.
     last = places.back().cell;
     const auto at = static_cast<int>(*last);
     const Eigen::Vector2i cell(at % grid.width, at / grid.width);
     const Eigen::Vector2d place = grid.centre_of(cell.x(), cell.y());
-    // A goal is held to this exactly, not from cell to cell.
+    // A goal must meet this limit exactly, not just to within a cell.
     if (distance_to_occupied(reach.floor.grid, place, reach.least_m) < reach.least_m) continue;
     if (can_see_unknown(grid, place, unknown_M)) return cell;
   }
@@ -196,7 +196,7 @@ std::optional<Eigen::Vector2i> standing_place(const Reach& reach, const Eigen::V
 }
 
 double way_length(const FloorRoom& floor, const Spread& ways, const Eigen::Vector2i& cell) {
-  const Cells way = way_back(floor, ways, cell);
+  const Cells way = backtrack(floor, ways, cell);
   double length = 0.0;
   for (std::size_t i = 1; i < way.size(); ++i) {
     length += (way[i] - way[i - 1]).cast<double>().norm() * floor.grid.resolution_m;
@@ -210,7 +210,7 @@ bool is_same(const Viewpoint& a, const Viewpoint& b) {
   return (a.at_M - b.at_M).norm() < kSameView || (same_place && turned < kSameDirection);
 }
 
-/// From where to look at the frontier's cell `target`; none where that was done.
+/// Viewpoint from which to look at the frontier cell `target`; none if that was done already.
 std::optional<Viewpoint> new_look(const Reach& reach, const Eigen::Vector2i& target,
                                   const std::vector<Viewpoint>& looks) {
   const OccupancyGrid& grid = reach.seen;
@@ -230,7 +230,7 @@ std::optional<Frontier> frontier_of(const Reach& reach, const Cells& cells,
                                     const std::vector<Viewpoint>& looks) {
   const OccupancyGrid& grid = reach.seen;
   std::optional<Viewpoint> look = new_look(reach, middle_of(cells), looks);
-  // Where its middle can't be seen, a part of it may.
+  // If its middle can't be seen, another part may be visible.
   for (std::size_t i = 0; i < cells.size() && !look; i += kCellsBetweenTries) {
     look = new_look(reach, cells[i], looks);
   }
@@ -239,7 +239,7 @@ std::optional<Frontier> frontier_of(const Reach& reach, const Cells& cells,
                   way_length(reach.floor, reach.ways, grid.cell_of(position_of(look->from_M)))};
 }
 
-/// The ground that the robot stands on is free, seen or not.
+/// The floor that the robot stands on is free, seen or not.
 OccupancyGrid with_ground_of(OccupancyGrid seen, const OccupancyGrid& floor) {
   for (std::size_t i = 0; i < seen.cells.size(); ++i) {
     if (seen.cells[i] < 0 && floor.cells[i] == 0) seen.cells[i] = 0;

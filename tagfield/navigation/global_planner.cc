@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// Neighbours, so that k ^ 1 is opposite to k; the last four are at the corners.
+/// Neighbours, ordered such that k ^ 1 is opposite to k; the last four are diagonal.
 struct Step {
   int x;
   int y;
@@ -29,8 +29,8 @@ constexpr std::array<Step, 8> kSteps = {{{1, 0, 12},
                                          {-1, 1, 17}}};
 constexpr double kTwelfths = 12.0;
 
-/// Cells that wait, by the cost of the way that they promise: Dial's queue, since a step adds a
-/// small whole number to that.
+/// Open cells, sorted by the estimated cost of the path through them: a bucket queue (Dial), since
+/// a step adds a small integer to that cost.
 class Waiting {
  public:
   struct Entry {
@@ -44,7 +44,7 @@ class Waiting {
     ++count_;
   }
   [[nodiscard]] bool empty() const { return count_ == 0; }
-  /// One of the cheapest. Not when empty.
+  /// Removes one of the cheapest. Must not be called when empty.
   Entry take() {
     while (buckets_[at_].empty()) at_ = (at_ + 1) % buckets_.size();
     const Entry entry = buckets_[at_].back();
@@ -54,14 +54,14 @@ class Waiting {
   }
 
  private:
-  // More than a step can add: 17 twelfths at the dearest weight, and leading away at the cheapest.
+  // More than a step can add: 17 twelfths at the greatest weight, and leading away at the least.
   std::array<std::vector<Entry>, 1024> buckets_;
   std::size_t at_ = 0;
   std::size_t count_ = 0;
 };
 static_assert(17 * (FloorRoom::kOut + FloorRoom::kFar) < 1024);
 
-/// The least that any way between two cells can cost.
+/// Lower bound on the cost of any path between two cells.
 std::int32_t least_cost(int x, int y, const Eigen::Vector2i& to) {
   const int along = std::abs(x - to.x());
   const int across = std::abs(y - to.y());
@@ -74,7 +74,7 @@ bool cuts_corner(const FloorRoom& floor, int x, int y, const Step& step) {
          (floor.weight(x + step.x, y) == 0 || floor.weight(x, y + step.y) == 0);
 }
 
-/// Cost of the straight line, in the unit of Spread; none where it passes a cell not allowed.
+/// Cost of the straight line, in the unit of Spread; none if it passes a cell that is not allowed.
 std::optional<double> line_cost(const FloorRoom& floor, const Eigen::Vector2d& a,
                                 const Eigen::Vector2d& b) {
   double cost = 0.0;
@@ -87,8 +87,8 @@ std::optional<double> line_cost(const FloorRoom& floor, const Eigen::Vector2d& a
   return kTwelfths * cost / floor.grid.resolution_m;
 }
 
-/// The cell with weight nearest to `p` within two cells: the very cell of a goal that is exactly as
-/// far from a wall as it must be may have its centre a little nearer.
+/// The cell of nonzero weight nearest to `p` within two cells: if a goal is exactly at the least
+/// distance from a wall, the centre of its own cell may be slightly nearer.
 std::optional<Eigen::Vector2i> allowed_cell(const FloorRoom& floor, const Eigen::Vector2d& p) {
   const Eigen::Vector2i cell = floor.grid.cell_of(p);
   std::optional<Eigen::Vector2i> best;
@@ -117,7 +117,7 @@ Spread spread(const FloorRoom& floor, const Eigen::Vector2i& from,
                 std::vector<std::uint8_t>(grid.cells.size(), Spread::kNowhere)};
   if (floor.weight(from.x(), from.y()) == 0) return result;
   Waiting waiting;
-  // With an end in view this is A*, else Dijkstra's algorithm.
+  // With a target this is A*, otherwise Dijkstra's algorithm.
   const auto ahead = [&](int x, int y) { return until ? least_cost(x, y, *until) : 0; };
   result.costs[grid.index(from.x(), from.y())] = 0;
   waiting.add({0, from.x(), from.y()}, ahead(from.x(), from.y()));
@@ -141,8 +141,8 @@ Spread spread(const FloorRoom& floor, const Eigen::Vector2i& from,
   return result;
 }
 
-std::vector<Eigen::Vector2i> way_back(const FloorRoom& floor, const Spread& spread,
-                                      const Eigen::Vector2i& cell) {
+std::vector<Eigen::Vector2i> backtrack(const FloorRoom& floor, const Spread& spread,
+                                       const Eigen::Vector2i& cell) {
   std::vector<Eigen::Vector2i> way = {cell};
   for (;;) {
     const std::uint8_t back = spread.back[floor.grid.index(way.back().x(), way.back().y())];
@@ -163,7 +163,7 @@ std::vector<Eigen::Vector2d> straightened(const FloorRoom& floor,
     for (std::size_t next = to + 1; next < way.size(); ++next) {
       steps_cost += line_cost(floor, way[next - 1], way[next]).value_or(1e9);
       const std::optional<double> straight = line_cost(floor, way[from], way[next]);
-      // Twice as many cells as it takes to see round an unlucky row of them.
+      // Twice as many cells as it takes to see past an unlucky run of them.
       if (!straight && next > to + 4) break;
       if (straight && *straight <= 1.001 * steps_cost)
         to = next;
@@ -191,7 +191,7 @@ std::string fault_of(const OccupancyGrid& map, const PlanarPose& pose_M, const P
   const std::string robot = at("the robot at", pose_M);
   const Eigen::Vector2i here = map.cell_of(position_of(pose_M));
   if (!map.contains(here.x(), here.y())) return robot + ": off the map";
-  // Half the radius is well inside any outline, and more than maps and poses err.
+  // Half the radius is well inside any footprint, and more than the errors of maps and poses.
   if (distance_to_occupied(map, position_of(pose_M), 0.5 * size.radius_m) < 0.5 * size.radius_m) {
     return robot + ": in an obstacle";
   }
@@ -213,7 +213,7 @@ Plan plan(const OccupancyGrid& map, const std::vector<Eigen::Vector2d>& seen,
   const Spread ways = spread(floor, *to, from);
   if (ways.costs[floor.grid.index(from->x(), from->y())] < 0) return {{}, no_way};
   std::vector<Eigen::Vector2d> points;
-  for (const Eigen::Vector2i& cell : way_back(floor, ways, *from)) {
+  for (const Eigen::Vector2i& cell : backtrack(floor, ways, *from)) {
     points.push_back(floor.grid.centre_of(cell.x(), cell.y()));
   }
   points.front() = start;

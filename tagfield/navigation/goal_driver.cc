@@ -18,16 +18,15 @@
 namespace tagfield {
 namespace {
 
-/// Share of the tolerances that is aimed for.
+/// Fraction of the tolerances that the robot aims for.
 constexpr double kAim = 0.4;
-/// Share of the tolerance within which the robot is content if it has passed the goal or is held
-/// up.
+/// Fraction of the tolerance that is good enough if the robot has passed the goal or is held up.
 constexpr double kNearlyThere = 0.8;
-/// Without progress for so long it tries something else [s].
+/// Time without progress before it tries something else [s].
 constexpr double kStuckFor = 4.0;
-/// What a radian yet to be turned counts as, in metres yet to be driven.
+/// Metres yet to be driven that a radian yet to be turned counts as.
 constexpr double kMetresPerRadian = 0.3;
-/// A turning or driving robot has not arrived yet [rad/s, m/s].
+/// A robot that turns or drives faster than this has not arrived yet [rad/s, m/s].
 constexpr double kStillTurn = 0.2;
 constexpr double kStillForward = 0.02;
 constexpr double kLookAhead = 0.4;
@@ -89,7 +88,7 @@ struct GoalDriver::Impl {
   std::string reason;
   PlanarPose goal_M;
   bool is_there = false;        ///< At the goal, turning to its heading.
-  std::optional<Time> decided;  ///< When the command was.
+  std::optional<Time> decided;  ///< When `command` was decided.
   BodyVelocity command;
   std::optional<Decision> last;
 };
@@ -105,7 +104,7 @@ void GoalDriver::Impl::end(DriveState how, const std::string& why) {
   is_there = false;
 }
 
-/// Time has gone back: all that was timed begins anew, and nothing that was seen counts.
+/// Time has jumped back: restarts all timers and forgets all that was seen.
 void GoalDriver::Impl::rewind(Time now) {
   senses.forget();
   route.rewind(now);
@@ -132,12 +131,12 @@ bool GoalDriver::Impl::has_turned(const PlanarPose& pose_M, const BodyVelocity& 
 
 double GoalDriver::Impl::remaining_m(const PlanarPose& pose_M) const {
   if (is_there) return kMetresPerRadian * std::abs(wrap_to_pi(goal_M.yaw - pose_M.yaw));
-  // The turn at the goal, which is at most half a turn, comes after all of the way.
+  // The turn at the goal, at most half a turn, comes after the whole path.
   return route.pursuit().remaining_m() +
          kMetresPerRadian * (kPi + route.pursuit().to_turn_rad(pose_M));
 }
 
-/// What to drive, were nothing in the way.
+/// The velocity to drive if nothing is in the way.
 BodyVelocity GoalDriver::Impl::wanted(const PlanarPose& pose_M, Time now) {
   if (recovery.is_on()) {
     const std::optional<BodyVelocity> tried = recovery.wanted(pose_M, now, settings.limits);
@@ -171,7 +170,7 @@ BodyVelocity GoalDriver::Impl::stop(const BodyVelocity& velocity, const std::str
 void GoalDriver::Impl::look_after_progress(const PlanarPose& pose_M, Time now) {
   if (recovery.is_on()) return;
   watch.update(remaining_m(pose_M), now);
-  // Who walks goes away by themselves.
+  // People who walk go away by themselves.
   if (last->hindrance == Hindrance::kMoving) watch.tried(now);
   if (watch.stuck_s(now) > kStuckFor) recovery.begin(pose_M, now);
 }
@@ -253,7 +252,7 @@ BodyVelocity GoalDriver::next(const PlanarPose& pose_M, const BodyVelocity& velo
   self.decided = now;
   const BodyVelocity command =
       self.decide_now(pose_M, is_finite(velocity) ? velocity : self.command, now);
-  // Where that has ended the drive, the command is to stand already.
+  // If that has ended the drive, the command is already to stand.
   if (self.state == DriveState::kDriving) self.command = command;
   return self.command;
 }

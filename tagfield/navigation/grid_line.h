@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The cells of a grid that a straight line passes.
+/// The cells of a grid that a straight line passes through.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +13,11 @@
 
 namespace tagfield {
 
-/// Calls `visit(x, y, length_m)` for each cell that the line from `a` to `b` passes, in order, with
-/// how far it runs in that cell (Amanatides and Woo, 1987), until `visit` returns false. Of the two
-/// cells beside a corner that the line goes through exactly it visits one. Returns whether all were
-/// visited. Both points are within 1e9 cells of the origin.
+/// Calls `visit(x, y, length_m)` in order for each cell that the line from `a` to `b` passes
+/// through, with the length of the line within that cell (Amanatides and Woo, 1987), until `visit`
+/// returns false. Where the line goes exactly through a corner, it visits one of the two cells
+/// beside it. Returns whether all cells were visited. Both points must be within 1e9 cells of the
+/// origin.
 template <typename Visit>
 bool along_line(const OccupancyGrid& grid, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                 Visit visit) {
@@ -26,8 +27,8 @@ bool along_line(const OccupancyGrid& grid, const Eigen::Vector2d& a, const Eigen
   Eigen::Vector2i cell = grid.cell_of(a);
   const Eigen::Vector2i last = grid.cell_of(b);
   Eigen::Vector2i step = Eigen::Vector2i::Zero();
-  Eigen::Vector2d next(kNever, kNever);   // Share of the way at which the next column, row begins.
-  Eigen::Vector2d every(kNever, kNever);  // Share of the way from one to the next.
+  Eigen::Vector2d next(kNever, kNever);   // Fraction of the line at which the next cell begins.
+  Eigen::Vector2d every(kNever, kNever);  // Fraction of the line from one to the next.
   for (int i = 0; i < 2; ++i) {
     if (cell[i] == last[i]) continue;
     step[i] = last[i] > cell[i] ? 1 : -1;

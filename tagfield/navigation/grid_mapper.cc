@@ -15,7 +15,8 @@
 namespace tagfield {
 namespace {
 
-/// Least spread of a step's prior: also wheels that say nothing happened may be wrong.
+/// Least standard deviations of a step's prior: wheels may be wrong even when they report no
+/// motion.
 constexpr double kLeastSigma_m = 0.002;
 constexpr double kLeastSigma_rad = 0.001;
 
@@ -31,12 +32,12 @@ Eigen::Matrix3d prior_information(const PlanarPose& from_M, const PlanarPose& in
   return covariance.inverse();
 }
 
-/// When polishing, the map alone is to say where a scan was.
+/// When polishing, the map alone should determine the pose of a scan.
 Eigen::Matrix3d loose_information() {
   return Eigen::Vector3d(1.0 / (0.1 * 0.1), 1.0 / (0.1 * 0.1), 1.0 / (0.05 * 0.05)).asDiagonal();
 }
 
-/// The map is good by then: what is far from its surfaces is something else.
+/// The map is good by then: points far from its surfaces belong to something else.
 MatchOptions polishing(MatchOptions options) {
   options.search_cells = 2;
   options.outlier_m = 0.03;
@@ -45,7 +46,7 @@ MatchOptions polishing(MatchOptions options) {
   return options;
 }
 
-/// A draw of N(match.pose, match.information⁻¹).
+/// A draw from N(match.pose, match.information⁻¹).
 PlanarPose drawn_near(const ScanMatch& match, RandomStream& stream) {
   const auto [a, b] = standard_normal_pair(stream);
   const Eigen::Vector3d z(a, b, standard_normal(stream));
@@ -67,7 +68,7 @@ PlanarPose mean_of(const PlanarPose* poses, std::size_t count) {
   return compose(first, {sum.x / n, sum.y / n, sum.yaw / n});
 }
 
-/// Within what wheels jitter at rest.
+/// Whether the increment is within the jitter of wheels at rest.
 bool stands(const PlanarPose& increment) {
   constexpr double kStill = 1e-3;  // [m, rad]
   return std::hypot(increment.x, increment.y) < kStill && std::abs(increment.yaw) < kStill;
@@ -92,7 +93,7 @@ bool GridMapper::update(const LaserScan& scan, const PlanarPose& odometry) {
   const PlanarPose increment = updates_ == 0 ? PlanarPose{} : between(odometry_, odometry);
   const bool moved = has_moved(increment);
   const bool enough = updates_ >= static_cast<std::uint64_t>(settings_.first_scans);
-  // What it moves between first scans would be lost: they are entered where it stood.
+  // Motion between the first scans would be lost, since they are entered at the starting pose.
   if (!moved && (enough || !stands(increment))) return false;
   const ScanPoints points = scan_points(scan, X_RL_, settings_.most_clear_m);
   if (points.ends_R.empty()) return false;
@@ -111,7 +112,7 @@ bool GridMapper::update(const LaserScan& scan, const PlanarPose& odometry) {
 
 void GridMapper::advance(Particle& particle, std::size_t index, const PlanarPose& increment,
                          const std::vector<Eigen::Vector2d>& points, const ScanPoints& scan) const {
-  // Standing at the start, all know where they are.
+  // While the robot stands at the start, all particles know their pose.
   if (has_moved(increment)) {
     const PlanarPose expected = compose(particle.pose_M, increment);
     const Eigen::Matrix3d prior = prior_information(particle.pose_M, increment, settings_.odometry);
@@ -119,7 +120,7 @@ void GridMapper::advance(Particle& particle, std::size_t index, const PlanarPose
         match_scan(particle.map, points, expected, expected, prior, settings_.match);
     RandomStream stream(seed_, Purpose::kMapping, index, updates_);
     particle.pose_M = drawn_near(match, stream);
-    // Laplace's approximation of ∫ p(scan | x, map) p(x | odometry) dx, less what all share.
+    // Laplace's approximation of ∫ p(scan | x, map) p(x | odometry) dx, without common factors.
     const double evidence =
         -match.cost + 0.5 * lane_log(prior.determinant() / match.information.determinant());
     particle.log_weight += evidence;
@@ -141,8 +142,8 @@ void GridMapper::polish(int sweeps) {
                            polishing(settings_.match))
                     .pose_M;
     });
-    // What is common to all is not seen by the map: the scans of the start, all made in one place,
-    // say where it is, and more of them say it better.
+    // The map does not determine a motion common to all scans. The scans at the start, all made at
+    // one pose, do, and more of them do so better.
     const PlanarPose back = compose(first, between(mean_of(path.data(), start_scans_), {}));
     HitGrid map(settings_.resolution_m);
     for (std::size_t i = 0; i < path.size(); ++i) {

@@ -10,14 +10,14 @@
 namespace tagfield {
 namespace {
 
-/// Place of a cell within its patch.
+/// Index of a cell within its patch.
 template <int kBits>
 std::size_t place_in_patch(int x, int y) {
   constexpr int kMask = (1 << kBits) - 1;
   return static_cast<std::size_t>(((y & kMask) << kBits) | (x & kMask));
 }
 
-/// Place of a patch in a table that is `width` patches wide.
+/// Index of a patch in a table that is `width` patches wide.
 std::size_t place_of(int x, int y, int width) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
          static_cast<std::size_t>(x);
@@ -58,7 +58,7 @@ void HitGrid::make_room(int patch_x, int patch_y) {
   patches_y_ = ny;
 }
 
-/// The patch, this grid's alone from now on.
+/// The patch, owned by this grid alone from now on.
 HitGrid::Patch& HitGrid::patch_to_change(int patch_x, int patch_y) {
   make_room(patch_x, patch_y);
   std::shared_ptr<Patch>& patch =
@@ -67,14 +67,14 @@ HitGrid::Patch& HitGrid::patch_to_change(int patch_x, int patch_y) {
     patch = std::make_shared<Patch>();
     return *patch;
   }
-  // One reference more is taken first, as counting it waits for grids on other threads that have
-  // read these cells and let go of them; use_count() by itself does not.
+  // Take one more reference first: incrementing the count synchronizes with grids on other threads
+  // that have read these cells and released them; use_count() alone does not.
   const std::shared_ptr<Patch> taken = patch;
   if (taken.use_count() > 2) patch = std::make_shared<Patch>(*taken);
   return *patch;
 }
 
-/// Counts a pass in the cells of a patch that are marked, but those that this scan counts already.
+/// Counts a pass in the marked cells of a patch, except those already counted for this scan.
 void HitGrid::count_passed(const CellMarks& marks, int patch_x, int patch_y) {
   Patch* patch = nullptr;
   const int x0 = std::max(patch_x * kPatchCells, marks.x0);
@@ -106,7 +106,7 @@ void HitGrid::add_end(const Eigen::Vector2d& offset, HitCell& cell) const {
 
 void HitGrid::add_ends(const std::vector<Eigen::Vector2d>& ends_M) {
   ++scans_;
-  // Beams side by side mostly end in one patch.
+  // Neighbouring beams mostly end in the same patch.
   Patch* patch = nullptr;
   Eigen::Vector2i where(0, 0);
   for (const Eigen::Vector2d& end_M : ends_M) {
@@ -126,7 +126,7 @@ void HitGrid::insert(const ScanPoints& scan, const PlanarPose& pose_M) {
   std::vector<Eigen::Vector2d> ends;
   ends.reserve(scan.ends_R.size());
   for (const Eigen::Vector2d& end_R : scan.ends_R) ends.push_back(transformed(pose_M, end_R));
-  // The ends first, since a cell is counted once for each scan.
+  // Endpoints first, since a cell is counted only once per scan.
   add_ends(ends);
   std::vector<Ray> rays;
   rays.reserve(ends.size() + scan.clear_R.size());
@@ -137,7 +137,8 @@ void HitGrid::insert(const ScanPoints& scan, const PlanarPose& pose_M) {
   pass(from, rays);
 }
 
-/// Most cells near the sensor are passed by many beams, so they are marked first and counted once.
+/// Many beams pass through most cells near the sensor, so cells are first marked and then counted
+/// once.
 void HitGrid::pass(const Eigen::Vector2d& from, const std::vector<Ray>& rays) {
   Eigen::Vector2i low = cell_of(from);
   Eigen::Vector2i high = low;

@@ -16,7 +16,7 @@ void mark(OccupancyGrid& map, int x, int y) {
   if (map.contains(x, y)) map.cells[map.index(x, y)] = kKeptOutCell;
 }
 
-/// Where the rings cross the line y = `y`, from left to right.
+/// x coordinates at which the rings cross the line y = `y`, from left to right.
 std::vector<double> crossings(const std::vector<Polygon>& rings, double y) {
   std::vector<double> found;
   for (const Polygon& ring : rings) {
@@ -31,7 +31,7 @@ std::vector<double> crossings(const std::vector<Polygon>& rings, double y) {
   return found;
 }
 
-/// Cells whose centre the rings hold, by the even-odd rule.
+/// Fills the cells whose centre lies inside the rings, by the even-odd rule.
 void fill(OccupancyGrid& map, const std::vector<Polygon>& rings) {
   for (int y = 0; y < map.height; ++y) {
     const double line = map.centre_of(0, y).y();

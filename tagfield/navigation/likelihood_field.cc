@@ -15,7 +15,7 @@ constexpr float kHit = 0.9F;
 constexpr float kNotOnMap = 0.1F / 3.0F;  // [1/m]
 constexpr double kReach = 4.0;            // [σ]
 
-/// Squares of the distances from the nearest occupied cell, at most of `most_m` [cells²].
+/// Squared distances from the nearest occupied cell, capped at that of `most_m` [cells²].
 std::vector<long> squared_distances(const OccupancyGrid& map, double most_m) {
   std::vector<bool> occupied;
   occupied.reserve(map.cells.size());
@@ -57,7 +57,7 @@ LikelihoodField::LikelihoodField(const OccupancyGrid& map, double sigma_m)
 }
 
 double LikelihoodField::log_at(double x, double y) const {
-  // In this order NaN becomes 1e9, and no conversion overflows.
+  // The order of min and max turns NaN into 1e9, so no conversion overflows.
   const auto whole = [&](double cells) {
     return static_cast<int>(std::max(-1.0, std::min(1e9, cells)));
   };

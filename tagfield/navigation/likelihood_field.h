@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How likely a scan is at a pose on a map.
+/// Likelihood of a scan at a pose on a map.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace tagfield {
 
-/// Where a map's cells lie, in single precision and the origin at whole cells, as
+/// Positions of a map's cells, in single precision and with the origin at whole cells;
 /// docs/localization_on_map.md says why.
 struct CellFrame {
   explicit CellFrame(const OccupancyGrid& map);
@@ -21,16 +21,16 @@ struct CellFrame {
   Eigen::Vector2f origin;  ///< Outer corner of cell (0, 0) [m].
 };
 
-/// The likelihood field of Thrun, Burgard, Fox, Probabilistic Robotics (2005), section 6.4: an end
-/// of a beam in a cell at the distance d from the nearest occupied one, centre to centre, has the
-/// likelihood 0.9·exp(-d²/2σ²) + 0.1/3 m, where the second is for what is not on the map. d counts
-/// as 4σ where it is more, and off the map. The last row and column count as off the map, and what
-/// is less than a cell before the first ones as in them.
+/// The likelihood field of Thrun, Burgard, Fox, Probabilistic Robotics (2005), section 6.4: a beam
+/// endpoint in a cell at distance d from the nearest occupied one, centre to centre, has the
+/// likelihood 0.9·exp(-d²/2σ²) + 0.1/3 m, where the second term accounts for what is not on the
+/// map. d is capped at 4σ, which is also used off the map. The last row and column count as off the
+/// map; points less than a cell before the first row or column count as in it.
 class LikelihoodField {
  public:
   LikelihoodField(const OccupancyGrid& map, double sigma_m);
 
-  /// Sum over the ends of the logarithms. Takes any pose.
+  /// Sum of the log-likelihoods of the endpoints. Accepts any pose.
   [[nodiscard]] double log_likelihood(const PlanarPose& pose_M,
                                       const std::vector<Eigen::Vector2f>& ends_R) const;
 
@@ -40,7 +40,7 @@ class LikelihoodField {
   CellFrame frame_;
   int width_;
   int height_;
-  std::vector<double> logs_;  ///< Of each cell.
+  std::vector<double> logs_;  ///< Log-likelihood of each cell.
   double off_map_;
 };
 

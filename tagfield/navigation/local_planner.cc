@@ -11,25 +11,26 @@
 namespace tagfield {
 namespace {
 
-constexpr double kScoredAfter = 1.0;  // When a manoeuvre is compared with what was wanted [s].
+constexpr double kScoredAfter = 1.0;  // When a manoeuvre is compared with the wanted one [s].
 constexpr double kHold = 1.0;         // How long a nominal manoeuvre holds its velocity [s],
-constexpr double kLongHold = 2.5;     // and how long where somebody moves.
-constexpr double kFirstHold = 0.6;    // Of an evasion's two velocities [s].
+constexpr double kLongHold = 2.5;     // and how long if there are moving obstacles.
+constexpr double kFirstHold = 0.6;    // Of an evasive manoeuvre's two velocities [s].
 constexpr double kSecondHold = 1.5;
 
 /// How much nearer than the margin the nearest of many noisy returns may seem [m].
 constexpr double kNoise = 0.025;
-/// Kept beside the radius by a robot that stands nearer than its margin already [m].
+/// Kept in addition to the radius by a robot that is already nearer than its margin [m].
 constexpr double kBareMargin = 0.01;
 constexpr double kHardlyTurned = 0.03;  // [rad]
-/// By how much more than the margin the gap must have grown before an evasion is broken off [m],
+/// By how much more than the margin the gap must have grown before an evasive manoeuvre is aborted
+/// [m],
 constexpr double kSurelyOver = 0.1;
-/// and by how much less it may seem while it goes on.
+/// and by how much less it may appear while the manoeuvre continues.
 constexpr double kGoesOn = 0.03;
-/// Beyond this gap to one who moves nothing is gained [m].
+/// A larger gap than this to a moving obstacle gains nothing [m].
 constexpr double kWantedGap = 0.4;
 
-// Weights of the costs: each is about 1 where it would be bad.
+// Weights of the costs: each cost is about 1 where it becomes bad.
 constexpr double kPerMetre = 1.0 / 0.3;
 constexpr double kPerRadian = 0.4;
 constexpr double kForClearance = 0.3;
@@ -40,7 +41,7 @@ double square(double x) { return x * x; }
 
 struct Candidate {
   Manoeuvre manoeuvre;
-  /// How far it is from being allowed, in metres about; 0 where it is.
+  /// How far it is from being allowed, roughly in metres; 0 if it is allowed.
   double badness = std::numeric_limits<double>::infinity();
   double cost = std::numeric_limits<double>::infinity();
 };
@@ -48,7 +49,7 @@ struct Candidate {
 /// Judges manoeuvres and keeps the best.
 class Chooser {
  public:
-  /// `gap_m` is what must be kept from those who move.
+  /// `gap_m` is the gap to keep from moving obstacles.
   Chooser(const Rollouts& rollouts, const BodyVelocity& wanted, const Surroundings& around,
           double gap_m, const LocalSettings& settings)
       : rollouts_(rollouts),
@@ -66,9 +67,9 @@ class Chooser {
   [[nodiscard]] double cost(const Manoeuvre& manoeuvre, const Outcome& result) const;
 
   const Rollouts& rollouts_;
-  PlanarPose reference_;  ///< Where what is wanted would lead in kScoredAfter.
+  PlanarPose reference_;  ///< Where the wanted velocity would lead in kScoredAfter.
   double clear_now_m_;
-  bool is_too_near_;  ///< To turn on the spot: a corner might touch.
+  bool is_too_near_;  ///< To turn on the spot: a corner might collide.
   double gap_m_;
   RobotRoom size_;
   Candidate best_;
@@ -78,7 +79,7 @@ double Chooser::badness(const Outcome& result) const {
   const double bare = size_.radius_m + kBareMargin;
   double needed = std::max(bare, size_.least_m() - kNoise);
   double bad = result.backs_blindly ? 1.0 : 0.0;
-  // Who stands nearer than the margin may go on, but hardly nearer.
+  // A robot nearer than the margin may go on, but hardly any nearer.
   if (clear_now_m_ < needed) needed = std::max(bare, clear_now_m_ - kBareMargin);
   if (clear_now_m_ < bare) needed = clear_now_m_ - 0.5 * kBareMargin;
   if (is_too_near_) {
@@ -107,7 +108,7 @@ void Chooser::consider(const Manoeuvre& manoeuvre, double extra_cost) {
   if (candidate.badness < best_.badness || candidate.cost < best_.cost) best_ = candidate;
 }
 
-/// Slower than wanted, and with a little more or less of a turn.
+/// Considers velocities slower than wanted, and turning a little more or less.
 void consider_nominal(Chooser& chooser, const BodyVelocity& wanted, const BodyVelocity& last,
                       const LocalSettings& settings, double hold_s) {
   constexpr std::array<double, 5> kShares = {1.0, 0.75, 0.5, 0.25, 0.0};
@@ -122,8 +123,8 @@ void consider_nominal(Chooser& chooser, const BodyVelocity& wanted, const BodyVe
   chooser.consider({}, kForChange * std::abs(last.turn));
 }
 
-/// Out of a place too near to something for turning: slowly, in wide arcs, as the outline's corners
-/// swing out on the other side.
+/// Considers ways out of a position too near to an obstacle for turning: slowly, in wide arcs, as
+/// the footprint's corners swing out on the other side.
 void consider_ways_out(Chooser& chooser, const LocalSettings& settings) {
   const double speed = std::min(0.2, settings.limits.speed_m_s);
   for (const double forward : {speed, -speed}) {
@@ -135,7 +136,7 @@ void consider_ways_out(Chooser& chooser, const LocalSettings& settings) {
   chooser.consider({}, kOnlyIfNothingElse);
 }
 
-/// Away from who comes, as fast as the drive can.
+/// Considers moving away from an approaching person as fast as the drive can.
 void consider_evasions(Chooser& chooser, const LocalSettings& settings) {
   constexpr std::array<double, 5> kForward = {0.0, 1.0, 0.5, -0.4, -1.0};
   constexpr std::array<double, 5> kTurn = {0.0, 0.5, -0.5, 1.0, -1.0};
@@ -160,8 +161,8 @@ void consider_evasions(Chooser& chooser, const LocalSettings& settings) {
   }
 }
 
-/// The rest of the evasion `begun`, while it will do, or else the best of all: nobody gets out of a
-/// way by going to and fro.
+/// The rest of the evasive manoeuvre `begun` as long as it is allowed, or else the best of all:
+/// going to and fro would not get the robot out of the way.
 Manoeuvre evasion(Chooser going_on, Chooser anew, const Manoeuvre* begun,
                   const LocalSettings& settings) {
   if (begun != nullptr) going_on.consider(rest_of(*begun, settings.period_s), 0.0);
@@ -174,8 +175,7 @@ bool is_same(const BodyVelocity& a, const BodyVelocity& b) {
   return std::abs(a.forward - b.forward) < 1e-9 && std::abs(a.turn - b.turn) < 1e-9;
 }
 
-/// The best of what comes near to what is wanted, where that is allowed with `gap_m` to those who
-/// move.
+/// The best manoeuvre near to the wanted velocity, subject to a gap of `gap_m` to moving obstacles.
 Candidate best_nominal(Chooser chooser, const BodyVelocity& wanted, const BodyVelocity& last,
                        const Surroundings& around, const LocalSettings& settings) {
   if (around.clear_now_m < settings.size.radius_m) {
@@ -207,7 +207,7 @@ Decision decide(const PlanarPose& pose_M, const BodyVelocity& present, const Bod
       best_nominal(chooser_for(margin + (was_evading ? kSurelyOver : 0.0)), wanted,
                    last ? last->manoeuvre.first : present, around, settings);
   Decision decision;
-  // What is not allowed is not driven for the sake of what stands: the robot brakes.
+  // If static obstacles rule out every manoeuvre, none is driven: the robot brakes.
   if (nominal.badness == 0.0) decision.manoeuvre = nominal.manoeuvre;
   decision.is_evading = nominal.badness > 0.0 && !around.moving.empty();
   if (decision.is_evading) {

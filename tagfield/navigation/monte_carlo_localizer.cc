@@ -22,52 +22,55 @@
 namespace tagfield {
 namespace {
 
-/// Particles this near to each other are of one opinion.
+/// Particles this near to each other form one hypothesis ("opinion").
 constexpr double kCluster_m = 0.5;
 constexpr double kCluster_rad = 0.35;
-/// While searching, so many opinions are looked at closely.
+/// Number of opinions examined closely while searching.
 constexpr std::size_t kOpinions = 40;
-/// Now and then the whole map is looked at, on a lattice of such steps, and the best so many places
-/// are looked at closely.
+/// From time to time the whole map is searched on a lattice of these steps, and the best poses, up
+/// to this number, are examined closely.
 constexpr double kLattice_m = 0.4;
 constexpr int kLatticeTurns = 24;
 constexpr std::size_t kLatticeOpinions = 200;
 constexpr int kLatticeEvery = 10;
 /// Beyond this a point's distance from the walls no longer counts on the lattice.
 constexpr double kLatticeReach_m = 0.6;
-/// Found: the scan fits so well, so much better than in any other place, so many times in a row.
+/// Found: the scan fits at least this well, by this much better than at any other pose, this many
+/// times in a row,
 constexpr double kGoodFit = 0.9;
 constexpr double kBetterBy = 0.04;
 constexpr int kGoodScans = 8;
-/// and over so much driving: turning in one place shows nothing new.
-constexpr double kGoodWay_m = 0.7;
-/// Opinions that fit so well get more particles (sensor resetting: Lenser and Veloso, 2000).
+/// and over this driving distance: turning on the spot shows nothing new.
+constexpr double kGoodLength_m = 0.7;
+/// Opinions that fit at least this well get more particles (sensor resetting: Lenser and Veloso,
+/// 2000).
 constexpr double kPromisingFit = 0.75;
 constexpr int kMoreParticles = 100;
-/// Lost: less than this fits, so many times in a row.
+/// Lost: the fit is below this, this many times in a row.
 constexpr double kBadFit = 0.5;
 constexpr int kBadScans = 12;
-/// A search that has found nothing after so many scans begins anew.
+/// A search that has found nothing after this many scans restarts.
 constexpr int kPatience = 40;
-/// Spread of the particles around a place just found.
+/// Spread of the particles around a pose just found.
 constexpr double kFoundSigma_m = 0.05;
 constexpr double kFoundSigma_rad = 0.02;
-/// Opinions are first brought into reach of the map's walls by a few points that look far.
+/// Opinions are first brought within reach of the map's walls by matching a few points with a large
+/// search radius.
 constexpr double kCoarseSpacing_m = 0.25;
 constexpr int kCoarseReach = 8;  ///< [cells]
-/// Opinions that have come so near to each other are one.
+/// Opinions that have come this near to each other are merged.
 constexpr double kSame_m = 0.05;
 constexpr double kSame_rad = 0.03;
-/// An opinion that fits worse than this after that is not looked at more closely.
+/// An opinion that fits worse than this after that is not examined more closely.
 constexpr double kHopelessFit = 0.4;
 constexpr double kLeastSpread_m = 0.002;
 constexpr double kLeastSpread_rad = 0.001;
 /// A point this near to a wall lies on it.
 constexpr double kOnWall_m = 0.1;
-/// A beam crosses a wall that is this far before its end.
+/// A beam crosses a wall if the wall is at least this far before its end.
 constexpr double kCrossing_m = 0.4;
 
-/// The map's walls as something to match scans to: the middle of each occupied cell.
+/// The map's walls as surfaces to match scans to: the centre of each occupied cell.
 HitGrid walls_of(const OccupancyGrid& map) {
   HitGrid walls(map.resolution_m);
   ScanPoints ends;
@@ -76,7 +79,7 @@ HitGrid walls_of(const OccupancyGrid& map) {
       if (is_occupied(map.at(x, y))) ends.ends_R.push_back(map.centre_of(x, y));
     }
   }
-  // Twice, since one end alone makes no wall.
+  // Twice, since a single endpoint makes no wall.
   walls.add_ends(ends.ends_R);
   walls.add_ends(ends.ends_R);
   return walls;
@@ -124,8 +127,8 @@ struct MonteCarloLocalizer::Impl {
   OccupancyGrid map;
   HitGrid walls;
   std::vector<float> wall_distance;
-  LikelihoodField tracking_field;   ///< What weighs particles when tracking,
-  LikelihoodField searching_field;  ///< and when searching, where they lie thin.
+  LikelihoodField tracking_field;   ///< Weights particles when tracking,
+  LikelihoodField searching_field;  ///< and when searching, where they are sparse.
   std::vector<PoseParticle> particles = {};
   std::uint64_t draws = 0;
   bool has_odometry = false;
@@ -135,8 +138,8 @@ struct MonteCarloLocalizer::Impl {
   double fit = 0.0;
   int good_scans = 0;
   int bad_scans = 0;
-  double good_way_m = 0.0;
-  double way_m = 0.0;  ///< Driven since the scan before.
+  double good_length_m = 0.0;
+  double way_m = 0.0;  ///< Driven since the previous scan.
   int searching_scans = 0;
   int times_lost = 0;
 
@@ -214,7 +217,7 @@ PoseEstimate MonteCarloLocalizer::Impl::mean_near(PlanarPose centre) const {
   return {centre, squares};
 }
 
-/// The places where most of the particles' weight is, heaviest first.
+/// The poses where most of the particles' weight is, heaviest first.
 std::vector<PlanarPose> MonteCarloLocalizer::Impl::opinions() const {
   struct Bin {
     double weight = 0.0;
@@ -247,8 +250,8 @@ std::vector<PlanarPose> MonteCarloLocalizer::Impl::opinions() const {
   return poses;
 }
 
-/// The places of a lattice over all free space that a scan fits best, by the mean distance of its
-/// ends from the walls.
+/// The poses of a lattice over all free space that a scan fits best, by the mean distance of its
+/// endpoints from the walls.
 std::vector<PlanarPose> MonteCarloLocalizer::Impl::lattice_opinions(
     const std::vector<Eigen::Vector2d>& points) const {
   const std::vector<Eigen::Vector2d> few = thinned(points, kCoarseSpacing_m);
@@ -284,7 +287,7 @@ std::vector<PlanarPose> MonteCarloLocalizer::Impl::lattice_opinions(
   return best;
 }
 
-/// Brings an estimate below the particles' spread.
+/// Refines an estimate to better than the particles' spread.
 PoseEstimate MonteCarloLocalizer::Impl::refined(const PoseEstimate& rough,
                                                 const std::vector<Eigen::Vector2d>& points) const {
   const ScanMatch match =
@@ -293,7 +296,7 @@ PoseEstimate MonteCarloLocalizer::Impl::refined(const PoseEstimate& rough,
   return {match.pose_M, match.information.inverse()};
 }
 
-/// Opinions, each brought into the walls' reach, without those that thereby become the same.
+/// Opinions, each brought within reach of the walls, without those that thereby coincide.
 std::vector<PlanarPose> MonteCarloLocalizer::Impl::approached(
     const std::vector<PlanarPose>& opinions, const std::vector<Eigen::Vector2d>& few) const {
   const Eigen::Matrix3d loose = diagonal_covariance(kCluster_m, kCluster_rad).inverse();
@@ -313,7 +316,7 @@ std::vector<PlanarPose> MonteCarloLocalizer::Impl::approached(
   return places;
 }
 
-/// The places that opinions lead to and how well each fits, best first.
+/// The poses that opinions converge to and how well each fits, best first.
 std::vector<std::pair<double, PoseEstimate>> MonteCarloLocalizer::Impl::settled(
     const std::vector<PlanarPose>& opinions, const std::vector<Eigen::Vector2d>& points) const {
   const std::vector<Eigen::Vector2d> few = thinned(points, kCoarseSpacing_m);
@@ -331,7 +334,7 @@ std::vector<std::pair<double, PoseEstimate>> MonteCarloLocalizer::Impl::settled(
   return settled;
 }
 
-/// Whether the way from `from` to `to` crosses an occupied cell before it is near to its end.
+/// Whether the line from `from` to `to` crosses an occupied cell before it is near its end.
 bool MonteCarloLocalizer::Impl::crosses_wall(const Eigen::Vector2d& from,
                                              const Eigen::Vector2d& to) const {
   const double length = (to - from).norm() - kCrossing_m;
@@ -341,15 +344,15 @@ bool MonteCarloLocalizer::Impl::crosses_wall(const Eigen::Vector2d& from,
     if (!map.contains(cell.x(), cell.y())) return false;
     const double clear = wall_distance[map.index(cell.x(), cell.y())];
     if (clear < 0.5 * map.resolution_m) return true;
-    // Nothing is nearer than this, but for the two cells' halves.
+    // Nothing is nearer than this, up to half a cell at either end.
     way += std::max(clear - map.resolution_m, 0.5 * map.resolution_m);
   }
   return false;
 }
 
-/// How well a scan fits the map from `pose`: the share of its ends that lie on walls, less the
-/// share of beams that crossed one. Things that are not on the map cost the first, but only a wrong
-/// place costs the second.
+/// How well a scan fits the map from `pose`: the fraction of its endpoints that lie on walls minus
+/// the fraction of beams that crossed one. Objects that are not on the map reduce the first, but
+/// only a wrong pose raises the second.
 double MonteCarloLocalizer::Impl::fit_at(const PlanarPose& pose,
                                          const std::vector<Eigen::Vector2d>& points) const {
   const Eigen::Vector2d from = transformed(pose, X_RL.translation.head<2>());
@@ -373,13 +376,13 @@ void MonteCarloLocalizer::Impl::track(const std::vector<Eigen::Vector2d>& points
   search();
 }
 
-/// Looks at the opinions there are; the robot is found where one fits, and no other.
+/// Examines the current opinions; the robot is found if exactly one of them fits.
 void MonteCarloLocalizer::Impl::look_around(const std::vector<Eigen::Vector2d>& points) {
   const PlanarPose expected = estimate.pose_M;
   double heaviest = particles.front().log_weight;
   for (const PoseParticle& particle : particles) heaviest = std::max(heaviest, particle.log_weight);
   std::vector<PlanarPose> to_see = opinions();
-  // Always before it is found: a place like this one may have no particle left.
+  // Always before it is found: a place that looks like this one may have no particles left.
   if (searching_scans % kLatticeEvery == 0 || good_scans + 1 >= kGoodScans) {
     const std::vector<PlanarPose> more = lattice_opinions(points);
     to_see.insert(to_see.end(), more.begin(), more.end());
@@ -393,8 +396,8 @@ void MonteCarloLocalizer::Impl::look_around(const std::vector<Eigen::Vector2d>& 
   const bool good = fit >= kGoodFit && alone;
   const bool same = are_near(expected, estimate.pose_M);
   good_scans = !good ? 0 : same ? good_scans + 1 : 1;
-  good_way_m = good_scans > 1 ? good_way_m + way_m : 0.0;
-  if (good_scans >= kGoodScans && good_way_m >= kGoodWay_m) {
+  good_length_m = good_scans > 1 ? good_length_m + way_m : 0.0;
+  if (good_scans >= kGoodScans && good_length_m >= kGoodLength_m) {
     particles.clear();
     scatter({estimate.pose_M, found_covariance()}, 2 * settings.least_particles, 0.0);
     use(Localization::kTracking);

@@ -20,32 +20,34 @@ constexpr double kMostRadius = 0.6;
 
 constexpr double kSigmaWhole = 0.04;  // Of a group's centre [m].
 constexpr double kSigmaCut = 0.15;    // Where only part of it can be seen [m],
-constexpr double kSigmaRound = 0.06;  // and that is bent [m].
-/// A part in sight tells how it is bent from this length on, halved [m], and counts as bent from
-/// this share of what it should be, and so many times the noise of a mean.
+constexpr double kSigmaRound = 0.06;  // and that is curved [m].
+/// The curvature of the visible part is evaluated from this half length on [m]. The part counts as
+/// curved from this fraction of the expected curvature on, and this multiple of the noise of a
+/// mean.
 constexpr double kLeastHalfChord = 0.08;
 constexpr double kRoundFrom = 0.5;
 constexpr double kSurely = 3.5;
 constexpr double kRangeSigma = 0.01;        // [m]
-constexpr double kSigmaAcceleration = 1.5;  // Of people who walk [m/s²].
+constexpr double kSigmaAcceleration = 1.5;  // Of people walking [m/s²].
 constexpr double kSigmaFirstVelocity = 1.0;
 constexpr double kGate = 0.4;        // Between a track and its group [m],
-constexpr double kGateGrowth = 0.4;  // and more by how long it was not seen [m/s].
+constexpr double kGateGrowth = 0.4;  // growing with the time since it was seen [m/s].
 constexpr double kMostGate = 1.0;
 constexpr double kMovesFrom = 0.2;    // [m/s]
 constexpr double kStandsBelow = 0.1;  // [m/s]
 constexpr int kUpdatesToMove = 6;
 constexpr int kMissesToForget = 5;
-constexpr double kUnsureKept = 0.3;   // An unseen track of what stands is kept so long [s].
-constexpr double kRadiusShare = 0.1;  // Of a new measurement in a track's radius.
+constexpr double kUnsureKept = 0.3;   // How long an unseen track that does not move is kept [s].
+constexpr double kRadiusShare = 0.1;  // Weight of a new measurement in a track's radius.
 
-/// Whether beams beside the group are hidden by something nearer, or outside of the view.
+/// Whether the beam next to the group is blocked by something nearer, or outside the field of view.
 bool is_cut_at(const ScanInMap& scan, std::ptrdiff_t beside, double range_m) {
   if (beside < 0 || beside >= static_cast<std::ptrdiff_t>(scan.clear_m.size())) return true;
   return scan.clear_m[static_cast<std::size_t>(beside)] < range_m - kMostGap;
 }
 
-/// Mean range of the middle third of a group's returns: on a disc, nearly its nearest point.
+/// Mean range of the middle third of a group's returns: for a disc, almost that of its nearest
+/// point.
 double middle_range(const ScanInMap& scan, const std::vector<std::size_t>& returns) {
   const std::size_t third = returns.size() / 3;
   double sum = 0.0;
@@ -55,7 +57,7 @@ double middle_range(const ScanInMap& scan, const std::vector<std::size_t>& retur
   return sum / static_cast<double>(returns.size() - 2 * third);
 }
 
-/// Mean place of the returns from `begin` to before `end`.
+/// Mean position of the returns in [begin, end).
 Eigen::Vector2d mean_point(const ScanInMap& scan, const std::vector<std::size_t>& returns,
                            std::size_t begin, std::size_t end) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -63,9 +65,9 @@ Eigen::Vector2d mean_point(const ScanInMap& scan, const std::vector<std::size_t>
   return sum / static_cast<double>(end - begin);
 }
 
-/// Takes the part of a disc that is in sight for that of somebody of the usual size, if it is bent
-/// like that: a flat side of something else, of which more and more comes into sight, would seem to
-/// walk. Of its first, middle and last third the means say how bent it is.
+/// Takes the visible part of a disc for part of a person of the usual size if its curvature
+/// matches: a flat side of some other object that gradually comes into view would seem to walk. The
+/// means of its first, middle and last third give the curvature.
 void fit_part(const ScanInMap& scan, ReturnGroup& group) {
   const std::size_t third = group.returns.size() / 3;
   const Eigen::Vector2d first = mean_point(scan, group.returns, 0, third);
@@ -75,7 +77,8 @@ void fit_part(const ScanInMap& scan, ReturnGroup& group) {
       mean_point(scan, group.returns, group.returns.size() - third, group.returns.size());
   const double half_chord = 0.5 * (last - first).norm();
   if (half_chord < kLeastHalfChord || half_chord > kUsualRadius_m) return;
-  // Beams run anticlockwise, so away from the laser is to the right of the way from first to last.
+  // Beams run counterclockwise, so away from the laser is to the right of the line from first to
+  // last.
   const Eigen::Vector2d along = (last - first) / (2.0 * half_chord);
   const Eigen::Vector2d away(along.y(), -along.x());
   const double depth = std::sqrt(kUsualRadius_m * kUsualRadius_m - half_chord * half_chord);
@@ -158,7 +161,8 @@ void ObstacleTracker::Track::correct(const ReturnGroup& group) {
   const bool is_known = !group.is_cut || group.is_round;
   const double innovation_var = var_place + sigma * sigma;
   const double gain_place = var_place / innovation_var;
-  // The middle of what is left in sight of one who goes out of it goes elsewhere than they do.
+  // When a person goes out of sight, the centre of the part still visible moves differently from
+  // the person.
   const double gain_velocity = is_known ? covar / innovation_var : 0.0;
   const Eigen::Vector2d innovation = group.centre_M - centre_M;
   centre_M += gain_place * innovation;
@@ -209,7 +213,8 @@ std::vector<int> ObstacleTracker::assign(const std::vector<ReturnGroup>& groups)
   return group_of;
 }
 
-/// Counts the scans that see through the places of unseen tracks, and drops what is gone.
+/// Counts the scans that see through the positions of unseen tracks, and drops tracks that are
+/// gone.
 void ObstacleTracker::forget(const ScanInMap& scan) {
   for (Track& track : tracks_) {
     if (track.seen == scan.stamp) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Who walks about: groups of returns that are not on the map, followed from scan to scan.
+/// People who walk about: groups of returns that are not on the map, tracked from scan to scan.
 /// docs/driving.md has the equations.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace tagfield {
 
-/// Seen from above, a disc that moves on as it did last.
+/// Seen from above, a disc that moves at constant velocity.
 struct MovingObstacle {
   Eigen::Vector2d centre_M;
   Eigen::Vector2d velocity_M;  ///< [m/s]
@@ -21,29 +21,30 @@ struct MovingObstacle {
   [[nodiscard]] Eigen::Vector2d at(double seconds) const { return centre_M + seconds * velocity_M; }
 };
 
-/// A group of returns that lie together, as the disc that would look like it.
+/// A cluster of returns, represented by the disc that would look like it.
 struct ReturnGroup {
   Eigen::Vector2d centre_M = Eigen::Vector2d::Zero();
   double radius_m = 0.0;
-  bool is_cut = false;    ///< Only part of it can be seen,
-  bool is_round = false;  ///< and that is bent as somebody's side is, so that its middle is known.
+  bool is_cut = false;    ///< Only part of it is visible,
+  bool is_round = false;  ///< and curved like a person's side, so that its centre is known.
   std::vector<std::size_t> returns;
 };
 
-/// The groups among the returns of `scan` for which `is_candidate`: neighbours less than 0.25 m
-/// from each other, at least three of them, at most 1.2 m across. A disc of radius r at distance D
-/// takes the half angle asin(r/D), and its nearest point is D − r away. Where only part can be seen
-/// and is bent like a disc of kUsualRadius_m, it is taken for one through that part's ends.
-inline constexpr double kUsualRadius_m = 0.25;  ///< Of somebody who walks.
+/// The groups among the returns of `scan` that are candidates: neighbours less than 0.25 m from
+/// each other, at least three of them, at most 1.2 m across. A disc of radius r at distance D
+/// subtends the half angle asin(r/D), and its nearest point is D − r away. If only part is visible
+/// and curved like a disc of kUsualRadius_m, it is taken for such a disc through the ends of that
+/// part.
+inline constexpr double kUsualRadius_m = 0.25;  ///< Of a person walking.
 std::vector<ReturnGroup> groups_of(const ScanInMap& scan, const std::vector<bool>& is_candidate);
 
-/// Follows groups of returns by a Kalman filter of constant velocity each.
+/// Tracks each group of returns with a constant-velocity Kalman filter.
 class ObstacleTracker {
  public:
-  /// Takes a scan; `is_candidate` says for each return whether it may belong to who moves. Returns
-  /// for each whether it does.
+  /// Takes a scan; `is_candidate` says for each return whether it may belong to a moving obstacle.
+  /// Returns for each return whether it does.
   std::vector<bool> update(const ScanInMap& scan, const std::vector<bool>& is_candidate);
-  /// Those who move, where they are at `now`: an unseen one is kept for kKeptUnseen.
+  /// The moving obstacles, predicted to `now`. One out of sight is kept for kKeptUnseen.
   [[nodiscard]] std::vector<MovingObstacle> moving(Time now) const;
   void clear() { tracks_.clear(); }
 
@@ -53,7 +54,7 @@ class ObstacleTracker {
   struct Track {
     Eigen::Vector2d centre_M;
     Eigen::Vector2d velocity_M = Eigen::Vector2d::Zero();
-    // Covariance of place and velocity along each axis.
+    // Covariance of position and velocity along each axis.
     double var_place = 0.0;
     double covar = 0.0;
     double var_velocity = 0.0;
@@ -61,7 +62,7 @@ class ObstacleTracker {
     Time time;  ///< Of the state.
     Time seen;
     int updates = 0;
-    int misses = 0;  ///< Scans in a row that see through its place.
+    int misses = 0;  ///< Consecutive scans that see through its position.
     bool is_moving = false;
 
     void predict(Time to);
@@ -70,7 +71,7 @@ class ObstacleTracker {
 
   static Track begin(const ReturnGroup& group, Time now);
   void forget(const ScanInMap& scan);
-  /// For each track its group's number, or -1.
+  /// For each track the index of its group, or -1.
   [[nodiscard]] std::vector<int> assign(const std::vector<ReturnGroup>& groups) const;
 
   std::vector<Track> tracks_;

@@ -7,7 +7,7 @@
 namespace tagfield {
 namespace {
 
-/// Distances along the columns in cells, up to `most`: from the row before, then from the one
+/// Distances along the columns in cells, up to `most`: first from the row before, then from the row
 /// after.
 std::vector<std::int16_t> column_distances(const std::vector<std::uint8_t>& sources,
                                            std::size_t width, std::int16_t most) {
@@ -32,14 +32,14 @@ std::vector<std::int16_t> column_distances(const std::vector<std::uint8_t>& sour
   return distances;
 }
 
-/// A square less 2¹⁵: the least of such numbers takes one instruction everywhere, that of numbers
-/// without a sign five. The sum of two squares of up to 180 cells fits, too.
+/// A square minus 2¹⁵: the minimum of signed numbers takes one instruction on every target, that of
+/// unsigned ones five. The sum of two squares of up to 180 cells also fits.
 using Lowered = std::int16_t;
 constexpr int kLowered = 32768;
 
 Lowered lowered(int square) { return static_cast<Lowered>(square - kLowered); }
 
-/// `best[x]` = min over |d| ≤ most of row[x + d]² + d². `padded` has `most` cells more at either
+/// `best[x]` = min over |d| ≤ most of row[x + d]² + d². `padded` has `most` extra cells at either
 /// end.
 void row_squares(const std::vector<Lowered>& padded, std::size_t width, std::size_t most,
                  std::vector<Lowered>& best) {

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kBeginTurn = radians(60.0);
 constexpr double kEndTurn = radians(10.0);
-/// Of what the drive can do, so that it can correct.
+/// Fractions of the drive's limits, to leave room for corrections.
 constexpr double kShareOfBraking = 0.5;
 constexpr double kShareOfTurn = 0.7;
-constexpr double kPerSecond = 1.5;      ///< Of the way that remains, driven in each second.
-constexpr double kTurnPerSecond = 3.0;  ///< Likewise of an angle.
-constexpr double kLeastSpeed = 0.02;    ///< So that the end is reached at all [m/s].
+constexpr double kPerSecond = 1.5;      ///< Fraction of the remaining path driven per second.
+constexpr double kTurnPerSecond = 3.0;  ///< Same for an angle.
+constexpr double kLeastSpeed = 0.02;    ///< Ensures that the end is reached [m/s].
 
 }  // namespace
 
@@ -56,7 +56,7 @@ BodyVelocity PathPursuit::wanted(const PlanarPose& pose_M) {
   const Eigen::Vector2d here = position_of(pose_M);
   const double distance = (way_.at(along_m_ + style_.look_ahead_m) - here).norm();
   const double remaining = std::max(remaining_m(), (way_.points().back() - here).norm());
-  // The arc through the point ahead that starts along the heading.
+  // The arc to the look-ahead point, tangent to the heading.
   const double curvature = 2.0 * sine(angle) / std::max(distance, 1e-3);
   const double most_turn = kShareOfTurn * style_.limits.turn_rad_s;
   const double braking = kShareOfBraking * style_.limits.acceleration_m_s2;

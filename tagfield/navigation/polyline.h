@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A way on the floor, by the length along it.
+/// A path on the floor, parametrized by arc length.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,32 +8,32 @@
 
 namespace tagfield {
 
-/// Straight pieces between points [m].
+/// Straight segments between points [m].
 class Polyline {
  public:
-  /// The place on a polyline nearest to a point.
+  /// The point of a polyline nearest to a given point.
   struct Foot {
     double along_m = 0.0;     ///< From the start.
-    double distance_m = 0.0;  ///< From the point.
+    double distance_m = 0.0;  ///< From the given point.
   };
 
   Polyline() = default;
-  /// Points that repeat the one before are left out.
+  /// Points equal to their predecessor are skipped.
   explicit Polyline(const std::vector<Eigen::Vector2d>& points);
 
   [[nodiscard]] bool empty() const { return points_.empty(); }
   [[nodiscard]] double length_m() const { return empty() ? 0.0 : along_.back(); }
   [[nodiscard]] const std::vector<Eigen::Vector2d>& points() const { return points_; }
-  /// The point `along_m` from the start; the ends beyond them. Not for an empty one.
+  /// The point at `along_m` from the start, clamped to the ends. The polyline must not be empty.
   [[nodiscard]] Eigen::Vector2d at(double along_m) const;
-  /// The foot of `p` among the places between `from_m` and `to_m`. Not for an empty one.
+  /// The foot of `p` on the section between `from_m` and `to_m`. The polyline must not be empty.
   [[nodiscard]] Foot nearest(const Eigen::Vector2d& p, double from_m, double to_m) const;
-  /// The points between two places, with both.
+  /// The section between two positions, both included.
   [[nodiscard]] std::vector<Eigen::Vector2d> between(double from_m, double to_m) const;
 
  private:
   std::vector<Eigen::Vector2d> points_;
-  std::vector<double> along_;  ///< Of the points.
+  std::vector<double> along_;  ///< Arc length at each point.
 };
 
 }  // namespace tagfield

@@ -16,7 +16,7 @@ namespace tagfield {
 namespace {
 
 constexpr double kKldError = 0.05;
-constexpr double kQuantile = 2.3263478740408408;  // of N(0, 1), to 99 %
+constexpr double kQuantile = 2.3263478740408408;  // Of N(0, 1), at 99 %.
 
 using Bin = std::array<long, 3>;
 
@@ -25,7 +25,7 @@ Bin bin_of(const PlanarPose& pose, const KldOptions& options) {
           std::lrint(pose.yaw / options.bin_rad)};
 }
 
-/// With a heading in [-π, π].
+/// `pose` moved by `step`, with a heading in [-π, π].
 PlanarPose moved(const PlanarPose& pose, const PlanarPose& step) {
   const PlanarPose wrapped{pose.x, pose.y, wrap_to_pi(pose.yaw)};
   PlanarPose next = compose(wrapped, step);
@@ -54,7 +54,7 @@ int kld_sample_size(std::size_t bins) {
 
 StepDraw::StepDraw(const PlanarPose& step, const Eigen::Matrix3d& covariance) : step_(step) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  // Rounding makes a variance of zero negative.
+  // Rounding can make a variance of zero negative.
   const Eigen::Vector3d sigma = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   root_ = solver.eigenvectors() * sigma.asDiagonal();
 }
@@ -104,7 +104,7 @@ std::vector<PoseParticle> drawn_and_moved(const std::vector<PoseParticle>& parti
 void weigh(std::vector<PoseParticle>& particles, const LikelihoodField& field,
            const std::vector<Eigen::Vector2f>& ends_R, double trust) {
   for (PoseParticle& particle : particles) {
-    // The 1 is common to all: without it, only last digits would change.
+    // The 1 is common to all particles: without it, only the last digits would change.
     particle.log_weight += trust * (1.0 + field.log_likelihood(particle.pose_M, ends_R));
   }
   const auto lighter = [](const PoseParticle& a, const PoseParticle& b) {

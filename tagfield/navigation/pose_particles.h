@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A belief of a pose as particles: spread over a map, drawn anew and moved, weighed by a scan.
+/// The belief about a pose as particles: spread over a map, resampled and moved, weighted by a
+/// scan.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,18 +23,18 @@ struct PoseParticle {
 /// KLD sampling (Fox, Adapting the Sample Size in Particle Filters Through KLD-Sampling, IJRR 22,
 /// 2003).
 struct KldOptions {
-  int least = 0;  ///< Particles; at least one is drawn.
+  int least = 0;  ///< Number of particles; at least one is drawn.
   int most = 0;
   double bin_m = 0.0;
   double bin_rad = 0.0;
 };
 
-/// How many particles it takes so that their distribution over `bins` ≥ 2 bins is with 99 %
-/// probability within a Kullback-Leibler divergence of 0.05 of the true one: Fox's formula, with
-/// Wilson and Hilferty's approximation of the χ² quantile.
+/// Number of particles for which the Kullback-Leibler divergence between their distribution over
+/// `bins` ≥ 2 bins and the true one is at most 0.05 with 99 % probability: Fox's formula, with the
+/// Wilson-Hilferty approximation of the χ² quantile.
 int kld_sample_size(std::size_t bins);
 
-/// Draws of N(step, covariance), which may be singular.
+/// Draws from N(step, covariance); the covariance may be singular.
 class StepDraw {
  public:
   StepDraw(const PlanarPose& step, const Eigen::Matrix3d& covariance);
@@ -45,17 +46,18 @@ class StepDraw {
   std::normal_distribution<double> normal_;
 };
 
-/// `count` poses over the map's free cells, of which there is at least one, up to a cell beside
-/// them, heading anywhere.
+/// `count` poses with random headings, spread over the map's free cells and up to a cell beside
+/// them. The map must have a free cell.
 std::vector<PoseParticle> spread_over_free(const OccupancyGrid& map, int count,
                                            std::mt19937& generator);
 
-/// Particles drawn by their weights, each moved by a step, until there are enough of them for the
-/// bins that they fill; all of one weight.
+/// Particles drawn by their weights, each moved by a step, until there are enough for the bins that
+/// they occupy; all of equal weight.
 std::vector<PoseParticle> drawn_and_moved(const std::vector<PoseParticle>& particles, StepDraw step,
                                           const KldOptions& options, std::mt19937& generator);
 
-/// Multiplies the weights by the power `trust` of the scan's likelihood, and makes the heaviest 1.
+/// Multiplies the weights by the scan's likelihood to the power `trust`, and normalizes the
+/// greatest to 1.
 void weigh(std::vector<PoseParticle>& particles, const LikelihoodField& field,
            const std::vector<Eigen::Vector2f>& ends_R, double trust);
 

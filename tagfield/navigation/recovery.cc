@@ -12,7 +12,7 @@ namespace {
 constexpr double kBackSpeed = 0.15;  // [m/s]
 constexpr double kBackFor = 2.0;     // [s]
 constexpr double kLookFor = 6.0;     // At most [s].
-/// With a view of half a turn this shows all.
+/// With a field of view of 180° this shows everything.
 constexpr double kLookTurn = radians(170.0);
 
 }  // namespace

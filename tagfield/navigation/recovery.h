@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a robot tries that gets nowhere.
+/// Recovery behaviours of a robot that makes no progress.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,16 @@
 
 namespace tagfield {
 
-/// By turns looks around, since its laser sees only ahead, and backs up a little.
+/// Alternately looks around, since the laser sees only ahead, and backs up a little.
 class Recovery {
  public:
   /// Begins the next try.
   void begin(const PlanarPose& pose_M, Time now);
-  /// Ends a try, and begins with looking around the next time.
+  /// Ends the current try; the next one begins with looking around.
   void reset();
   [[nodiscard]] bool is_on() const { return trying_ != Trying::kNothing; }
-  /// What to drive, were nothing in the way; none once the try is over, or none was begun.
+  /// The velocity to drive if nothing is in the way; none once the try is over, or if none was
+  /// begun.
   std::optional<BodyVelocity> wanted(const PlanarPose& pose_M, Time now, const SpeedLimits& limits);
 
  private:

@@ -8,9 +8,9 @@
 namespace tagfield {
 namespace {
 
-/// Places of the running sum of shares from which a draw looks for its particle.
+/// Number of positions in the cumulative weights from which a draw starts its search.
 constexpr std::size_t kStarts = 20;
-/// Draws are kept below 1, and a little below the place where they begin to look.
+/// Draws are kept below 1, and the search starts at a position slightly below the draw.
 constexpr double kMost = 0.999999;
 constexpr double kSafely = 0.05;
 

@@ -13,18 +13,18 @@ namespace {
 
 constexpr double kStep = 0.1;  // [s]
 constexpr double kAlmost = 1e-9;
-/// How fast it grows unsure where one who moves will be [m/s], and how unsure at most [m].
+/// Growth of the uncertainty about a moving obstacle's position [m/s], and its maximum [m].
 constexpr double kUnsure = 0.1;
 constexpr double kMostUnsure = 0.25;
 
-/// The robot on its way through a manoeuvre.
+/// Steps the robot through a manoeuvre.
 struct ReachedWalk {
   PlanarPose pose;
   BodyVelocity velocity;
   BodyVelocity mean;  ///< Of the last step.
   double t = 0.0;
 
-  /// Returns false, and stays, where the manoeuvre is over and the robot stands.
+  /// Returns false, without a step, once the manoeuvre is over and the robot stands.
   bool step(const Manoeuvre& manoeuvre, const SpeedLimits& limits) {
     const BodyVelocity next = limited(target_at(manoeuvre, t), velocity, limits, kStep);
     mean = {0.5 * (velocity.forward + next.forward), 0.5 * (velocity.turn + next.turn)};
@@ -53,7 +53,7 @@ Manoeuvre rest_of(const Manoeuvre& manoeuvre, double seconds) {
   return rest;
 }
 
-/// The half of the outline's circle that comes first when backing.
+/// Checks the rear half of the footprint's circle, which leads when backing up.
 bool Rollouts::is_ground_known_behind(const PlanarPose& pose) const {
   constexpr int kPoints = 7;
   for (int i = 0; i < kPoints; ++i) {
@@ -85,7 +85,8 @@ void Rollouts::check(const PlanarPose& pose, const BodyVelocity& velocity, doubl
   }
 }
 
-/// Where the robot stands from `from_s` to the horizon, those who move pass nearest at one moment.
+/// While the robot stands, from `from_s` to the horizon, each moving obstacle has one moment of
+/// closest approach.
 void Rollouts::check_rest(const PlanarPose& pose, double from_s, Outcome& result) const {
   for (const MovingObstacle& moving : around_.moving) {
     const Eigen::Vector2d away = position_of(pose) - moving.centre_M;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where a manoeuvre would lead the robot, and how near to what is around it.
+/// Where a manoeuvre would lead the robot, and how near to its surroundings.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,8 +16,8 @@
 
 namespace tagfield {
 
-/// Goes over to a velocity as fast as the drive can, holds it, does the same with another, brakes
-/// and stands.
+/// Changes to a first velocity as fast as the drive can, holds it, does the same with a second one,
+/// then brakes and stands.
 struct Manoeuvre {
   BodyVelocity first;
   double first_s = 0.0;
@@ -25,18 +25,18 @@ struct Manoeuvre {
   double second_s = 0.0;
 };
 
-/// The velocity to go to `seconds` after its beginning.
+/// The target velocity `seconds` after the beginning.
 BodyVelocity target_at(const Manoeuvre& manoeuvre, double seconds);
-/// What is left of it after `seconds`.
+/// The rest of the manoeuvre after `seconds`.
 Manoeuvre rest_of(const Manoeuvre& manoeuvre, double seconds);
 
-/// What is around the robot at the moment of a decision.
+/// The robot's surroundings at the time of a decision.
 struct Surroundings {
   const DistanceWindow* standing = nullptr;
-  /// Distance of the robot's centre from what stands, without the window's rounding [m].
+  /// Distance of the robot's centre from static obstacles, without the window's discretization [m].
   double clear_now_m = 0.0;
   std::vector<MovingObstacle> moving;
-  /// Whether the ground at a place is known to be free, so that the robot may back over it.
+  /// Whether a point is known to be free, so that the robot may back over it.
   std::function<bool(const Eigen::Vector2d&)> is_known_free;
 };
 
@@ -46,19 +46,20 @@ struct LocalSettings {
   double period_s = 0.05;  ///< Between decisions.
 };
 
-/// How far rollouts look ahead [s]: all end with the robot at rest, and nobody may come upon it
-/// there so soon that it could not get out of the way then.
+/// Time horizon of rollouts [s]. Every rollout ends with the robot at rest, and nobody may reach it
+/// there too soon for it to get out of the way.
 inline constexpr double kHorizon = 6.0;
 
-/// What comes of a manoeuvre.
+/// The outcome of a manoeuvre.
 struct Outcome {
-  double clear_m = std::numeric_limits<double>::infinity();  ///< Least distance to what stands.
-  double end_clear_m = 0.0;                                  ///< The same at the end.
-  /// Least gap between the outline's circle and those who move, less what is unsure of it.
+  /// Least distance to static obstacles.
+  double clear_m = std::numeric_limits<double>::infinity();
+  double end_clear_m = 0.0;  ///< The same at the end.
+  /// Least gap between the footprint's circle and moving obstacles, minus their uncertainty.
   double gap_m = std::numeric_limits<double>::infinity();
   bool backs_blindly = false;  ///< Over ground that is not known to be free.
-  double moved_m = 0.0;        ///< Distance of the end from the beginning.
-  double turned_rad = 0.0;     ///< By how much the end is turned.
+  double moved_m = 0.0;        ///< Distance from the start to the end.
+  double turned_rad = 0.0;     ///< Change of heading from the start to the end.
 };
 
 class Rollouts {

@@ -15,10 +15,10 @@ Eigen::Vector2d polar(double angle_rad, double range_m) {
   return {range_m * cosine(angle_rad), range_m * sine(angle_rad)};
 }
 
-/// Points at the least range where a row of neighbouring beams is invalid.
+/// Adds points at the minimum range where a run of neighbouring beams is invalid.
 void add_blind(const LaserScan& scan, std::size_t begin, std::size_t end, ScanInMap& seen) {
   if (static_cast<double>(end - begin) * scan.angle_step_rad < ScanInMap::kLeastBlind) return;
-  // A point each 3° leaves no gap that matters at a range of decimetres.
+  // One point every 3° leaves no gap that matters at a range of decimetres.
   const auto stride = static_cast<std::size_t>(std::max(1.0, 0.05 / scan.angle_step_rad));
   for (std::size_t i = begin; i < end; i += stride) {
     seen.may_be_M.push_back(transformed(seen.q_ML, polar(beam_angle(scan, i), scan.least_range_m)));
@@ -34,8 +34,8 @@ void find_blind(const LaserScan& scan, ScanInMap& seen) {
   }
 }
 
-/// Where a point is that was seen `later_s` after the robot was at `pose_M`, and was placed as if
-/// seen from there.
+/// Corrected position of a point that was seen `later_s` after the robot was at `pose_M` but
+/// computed as if seen from there.
 Eigen::Vector2d carried(const PlanarPose& pose_M, const BodyVelocity& velocity, double later_s,
                         const Eigen::Vector2d& point_M) {
   const PlanarPose in_robot = between(pose_M, {point_M.x(), point_M.y(), 0.0});
@@ -45,7 +45,7 @@ Eigen::Vector2d carried(const PlanarPose& pose_M, const BodyVelocity& velocity, 
 void place_returns(const LaserScan& scan, const PlanarPose& pose_M, const BodyVelocity& velocity,
                    ScanInMap& seen) {
   const double interval_s = to_seconds(scan.beam_interval);
-  // Directions of neighbouring beams follow from each other by a turn, which is quicker than sines.
+  // Each beam's direction is the previous one rotated, which is faster than computing sines.
   const double first_angle = seen.q_ML.yaw + scan.first_angle_rad;
   Eigen::Vector2d direction_M(cosine(first_angle), sine(first_angle));
   const Eigen::Matrix2d turn = rotation_in_plane(scan.angle_step_rad);
@@ -72,7 +72,7 @@ bool is_sound(const LaserScan& scan) {
 double ScanInMap::clear_towards(const Eigen::Vector2d& p_M, double half_width_rad) const {
   const Eigen::Vector2d away = p_M - position_of(q_ML);
   const double bearing = wrap_to_pi(arc_tangent(away.y(), away.x()) - q_ML.yaw - first_angle_rad);
-  // Beams may begin anywhere in a turn; those of a view past the half turn are a turn further on.
+  // Beams may begin at any angle; those past ±π are one full turn further on.
   const double past = bearing < -half_width_rad ? bearing + kTwoPi : bearing;
   const double first = std::floor((past - half_width_rad) / angle_step_rad);
   const double last = std::ceil((past + half_width_rad) / angle_step_rad);

@@ -14,18 +14,18 @@
 namespace tagfield {
 namespace {
 
-/// Least ratio of a line's two spreads: below it the cells make a blob.
+/// Least ratio of the two spreads of a line: below it the cells form a blob.
 constexpr double kLineRatio = 4.0;
 constexpr double kConverged = 1e-5;
 
-/// What a point is held against.
+/// The surface that a point is compared with.
 struct Surface {
   Eigen::Vector2d mean;
   Eigen::Vector2d normal;  ///< Zero for a blob.
 };
 
-/// The nearest occupied cell to `cell` within `reach` cells by rings; of one ring the one whose
-/// mean is nearest to `p`.
+/// The nearest occupied cell within `reach` cells around `p`, ring by ring; within a ring, the one
+/// whose mean is nearest to `p`.
 std::optional<Eigen::Vector2i> nearest_occupied(const HitGrid& map, const Eigen::Vector2d& p,
                                                 int reach) {
   const Eigen::Vector2i centre = map.cell_of(p);
@@ -81,8 +81,7 @@ Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell, double most_
   return surface;
 }
 
-/// The surfaces of one map, each computed once: most points of a scan and all iterations meet the
-/// same.
+/// A cache of the surfaces of one map: most points of a scan and all iterations use the same ones.
 class Surfaces {
  public:
   Surfaces(const HitGrid& map, double most_ends) : map_(map), most_ends_(most_ends) {}
@@ -109,7 +108,7 @@ struct Sums {
   double squares = 0.0;
   std::size_t matched = 0;
 
-  /// A distance along `direction`; `arm` is how the point moves by the yaw.
+  /// Adds a residual along `direction`; `arm` is the derivative of the point with respect to yaw.
   void add(double distance, const Eigen::Vector2d& direction, const Eigen::Vector2d& arm,
            double share, const MatchOptions& options) {
     const double ratio = distance / options.outlier_m;
@@ -127,7 +126,7 @@ Sums sums_at(const HitGrid& map, const std::vector<Eigen::Vector2d>& points_R,
              const PlanarPose& pose, int reach, const MatchOptions& options, Surfaces& surfaces) {
   Sums sums;
   const auto [s, c] = sine_cosine(pose.yaw);
-  // A point without a surface costs as one at the edge of the search.
+  // A point without a surface costs as much as one at the edge of the search.
   const double missed = map.resolution_m() * (options.search_cells + 1) / options.outlier_m;
   const double missed_cost = 0.5 * options.trust * options.outlier_m * options.outlier_m /
                              (options.sigma_m * options.sigma_m) * std::log1p(missed * missed);
@@ -166,7 +165,7 @@ ScanMatch match_scan(const HitGrid& map, const std::vector<Eigen::Vector2d>& poi
   match.pose_M = guess_M;
   Surfaces surfaces(map, options.most_ends);
   for (int i = 0; i < options.iterations; ++i) {
-    // Wide first, then only the surface at hand.
+    // A wide search first, then only the nearby surface.
     const int reach = i < 3 ? options.search_cells : 2;
     const Sums sums = sums_at(map, points_R, match.pose_M, reach, options, surfaces);
     const Eigen::Vector3d off = difference(match.pose_M, prior_M);

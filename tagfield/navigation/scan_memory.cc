@@ -9,10 +9,10 @@
 namespace tagfield {
 namespace {
 
-/// Looking for what is seen through takes longer than entering a scan, and need not be done for
-/// each.
+/// Finding points that are seen through takes longer than entering a scan, and need not be done for
+/// every scan.
 constexpr std::uint64_t kScansBetweenDrops = 3;
-/// Half the width of the row of beams that must pass a point [rad]: two beams of a quarter degree.
+/// Half the width of the fan of beams that must pass a point [rad]: two beams of a quarter degree.
 constexpr double kHalfWidth = 0.009;
 
 std::uint64_t key_of(const Eigen::Vector2d& p) {

@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// Where the first, and from there each `skip`-th beam met something, in single precision.
+/// Endpoints of the first and every `skip`-th beam after it, in single precision.
 std::vector<std::optional<Eigen::Vector2f>> ends_of_every(const LaserScan& scan,
                                                           const RigidTransform& X_RL,
                                                           std::size_t skip) {
@@ -20,7 +20,7 @@ std::vector<std::optional<Eigen::Vector2f>> ends_of_every(const LaserScan& scan,
   const double span = scan.angle_step_rad * static_cast<double>(skip * last);
   const double half = 0.5 * static_cast<double>(static_cast<float>(span));
   const double step = 2.0 * half / std::max(static_cast<double>(last), 1.0);
-  // Angles count from the middle one.
+  // Angles are relative to the middle one.
   const Eigen::Matrix2f R =
       rotation_in_plane(yaw_of(X_RL.rotation) + scan.first_angle_rad + 0.5 * span).cast<float>();
   const Eigen::Vector2f sensor_R = X_RL.translation.head<2>().cast<float>();

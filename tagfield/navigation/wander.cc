@@ -12,31 +12,31 @@
 namespace tagfield {
 namespace {
 
-/// Ways are looked at so far ahead, and driven so far before the next is chosen [m].
+/// How far ahead directions are checked, and how far one is driven before the next is chosen [m].
 constexpr double kSight = 4.0;
 constexpr double kLeg = 3.0;
-/// Of a way so much is left at its end, and a shorter one is none [m].
+/// Length left undriven at the end of a free section, and the least length worth driving [m].
 constexpr double kSpare = 0.3;
 constexpr double kLeastWay = 0.8;
-/// Kept free beside the robot and its margin: its way is not quite straight [m].
+/// Kept free to the sides, beyond the robot's margin: its path is not quite straight [m].
 constexpr double kBeside = 0.05;
-/// What was seen from a place holds for so far around it [m].
+/// What was seen from a position holds within this distance of it [m].
 constexpr double kSameGoal = 0.5;
-/// What is lost by a radian of turning, and by each crumb so near to a way's end [m].
+/// Cost of a radian of turning, and of each crumb within kNearCrumb of the end [m].
 constexpr double kTurnCost = 0.4;
 constexpr double kPerCrumb = 1.0;
 constexpr int kMostCrumbs = 3;
 constexpr double kNearCrumb = 1.2;
 constexpr double kCrumbSpacing = 1.0;
 constexpr std::size_t kCrumbsKept = 40;
-/// At the edges of its view a laser does not see how wide a way is.
+/// At the edges of its field of view a laser does not see how wide a passage is.
 constexpr double kEdge = radians(10.0);
 constexpr int kThirds = 3;
 constexpr double kBetweenChoices = 0.5;  ///< [s]
-constexpr double kFloorHalf = 8.0;       ///< Half a side of the floor that is planned on [m].
+constexpr double kFloorHalf = 8.0;       ///< Half the side of the floor used for planning [m].
 constexpr double kFloorCell = 0.1;
 
-/// Where it ends up does not matter much.
+/// The exact end pose does not matter much.
 GoalDriverSettings careless(GoalDriverSettings settings) {
   settings.goal_tolerance_m = 0.2;
   settings.goal_tolerance_rad = 0.3;
@@ -51,7 +51,7 @@ double yaw_of_sector(std::size_t sector) {
 
 Eigen::Vector2d direction_of(double yaw) { return {cosine(yaw), sine(yaw)}; }
 
-/// Whether the beam nearest to `angle_L` says anything, and is not one of the first or last.
+/// Whether the beam nearest to `angle_L` is valid and not too near to the first or the last.
 bool is_in_view(const LaserScan& scan, double angle_L) {
   if (!(scan.angle_step_rad > 0.0) || scan.ranges_m.empty()) return false;
   const double last = static_cast<double>(scan.ranges_m.size() - 1);
@@ -82,8 +82,8 @@ void mark(OccupancyGrid& floor, const std::vector<Eigen::Vector2d>& points) {
 
 }  // namespace
 
-double open_way(const std::vector<Eigen::Vector2d>& points_R, double angle_rad, double half_width_m,
-                double most_m) {
+double free_distance(const std::vector<Eigen::Vector2d>& points_R, double angle_rad,
+                     double half_width_m, double most_m) {
   const Eigen::Vector2d along = direction_of(angle_rad);
   double way = most_m;
   for (const Eigen::Vector2d& p : points_R) {
@@ -125,11 +125,11 @@ void Wander::see(const LaserScan& scan, const PlanarPose& pose_O) {
   for (std::size_t i = 0; i < kSectors; ++i) {
     const double angle_R = yaw_of_sector(i) - pose_O.yaw;
     if (!is_in_view(scan, angle_R - yaw_of(X_RL_.rotation))) continue;
-    rooms_[i] = {open_way(ends_R, angle_R, half_width_m_, kSight), position_of(pose_O)};
+    rooms_[i] = {free_distance(ends_R, angle_R, half_width_m_, kSight), position_of(pose_O)};
   }
 }
 
-/// 0 where nothing is known of that direction from about here.
+/// 0 if nothing is known about that direction from near here.
 double Wander::way_towards(std::size_t sector, const Eigen::Vector2d& here_O) const {
   const Room& room = rooms_[sector];
   if ((room.from_O - here_O).norm() > kSameGoal) return 0.0;
@@ -137,7 +137,7 @@ double Wander::way_towards(std::size_t sector, const Eigen::Vector2d& here_O) co
   for (const Eigen::Vector2d& p_O : hidden_O_) {
     if ((p_O - here_O).norm() < kSight + half_width_m_) hidden.emplace_back(p_O - here_O);
   }
-  return open_way(hidden, yaw_of_sector(sector), half_width_m_, room.way_m);
+  return free_distance(hidden, yaw_of_sector(sector), half_width_m_, room.way_m);
 }
 
 double Wander::gain(std::size_t sector, double way, const PlanarPose& pose_O) const {
@@ -154,7 +154,7 @@ double Wander::gain(std::size_t sector, double way, const PlanarPose& pose_O) co
 void Wander::go(const PlanarPose& goal_O, const PlanarPose& pose_O, bool is_turn, Time now) {
   goal_O_ = position_of(goal_O);
   OccupancyGrid floor = empty_floor(position_of(pose_O));
-  // For a turn on the spot there need not be the room that a goal must have.
+  // A turn on the spot does not need the clearance that a goal must have.
   if (!is_turn) {
     mark(floor, ends_O_);
     mark(floor, hidden_O_);
@@ -163,7 +163,7 @@ void Wander::go(const PlanarPose& goal_O, const PlanarPose& pose_O, bool is_turn
   driver_.set_goal(goal_O, pose_O, now);
 }
 
-/// Who says that something is where the robot stands is wrong about all of it.
+/// Hidden points that include one where the robot stands are all considered wrong.
 void Wander::doubt_hidden(const Eigen::Vector2d& here_O) {
   const bool is_wrong =
       std::any_of(hidden_O_.begin(), hidden_O_.end(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Moving about without knowing where: what a robot does that must see more of the world to find
-/// itself on its map.
+/// Wandering without a known pose: what a robot does to see more of the world and localize itself
+/// on its map.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,35 +14,36 @@
 
 namespace tagfield {
 
-/// How far a disc of radius `half_width_m` about the origin of `points_R` can go straight on
-/// towards `angle_rad` before it meets one of them [m], at most `most_m`. Points that it covers
-/// already don't count.
-double open_way(const std::vector<Eigen::Vector2d>& points_R, double angle_rad, double half_width_m,
-                double most_m);
+/// How far a disc of radius `half_width_m` at the origin of frame R can move straight towards
+/// `angle_rad` before it hits one of `points_R` [m], at most `most_m`. Points that it already
+/// covers don't count.
+double free_distance(const std::vector<Eigen::Vector2d>& points_R, double angle_rad,
+                     double half_width_m, double most_m);
 
-/// A full turn, then short ways towards open room, rather ahead than back and rather to where it
-/// has not been; another turn where there is no room. A GoalDriver keeps it clear of what its laser
-/// sees: it needs no map, and no pose but the wheels'. Frame O is the odometry's. The same calls
-/// give the same motion.
+/// A full turn, then short drives towards open space, preferring directions ahead and areas not yet
+/// visited; another turn if there is no space. A GoalDriver keeps the robot clear of what its laser
+/// sees: this needs no map, and no pose other than the odometry's. Frame O is the odometry frame.
+/// The same calls give the same motion.
 class Wander {
  public:
   /// Throws Error as GoalDriver does.
   Wander(const GoalDriverSettings& settings, const RigidTransform& X_RL);
 
-  /// Begins with a turn, and forgets what was seen: the robot may have been carried.
+  /// Begins with a turn and forgets what was seen, since the robot may have been carried.
   void begin();
-  /// What the laser saw; `pose_O` is the robot's at the scan's stamp. A pose that is not finite is
-  /// passed over.
+  /// Adds a laser scan; `pose_O` is the robot's pose at its timestamp. Ignored if the pose is not
+  /// finite.
   void see(const LaserScan& scan, const PlanarPose& pose_O);
-  /// Where there may be something that the laser does not see; counts for the ways that are chosen
-  /// from now on, until the next call. Not heeded where the robot itself stands on it.
+  /// Sets points where there may be obstacles that the laser does not see, for the directions
+  /// chosen from now on until the next call. All are ignored if the robot itself stands on one of
+  /// them.
   void mind(std::vector<Eigen::Vector2d> hidden_O) { hidden_O_ = std::move(hidden_O); }
-  /// What to drive from `now` until the next call: nothing without a scan of the last half second,
-  /// or where the pose is not finite. `velocity` is the robot's present one.
+  /// The velocity to drive from `now` until the next call: zero without a scan from the last half
+  /// second, or if the pose is not finite. `velocity` is the robot's current one.
   BodyVelocity next(const PlanarPose& pose_O, const BodyVelocity& velocity, Time now);
 
  private:
-  /// How far it is open in a direction of O, as seen from a place.
+  /// The free distance in a direction of O, as seen from a position.
   struct Room {
     double way_m = 0.0;
     Eigen::Vector2d from_O = Eigen::Vector2d::Zero();
@@ -58,10 +59,10 @@ class Wander {
   double radius_m_;
   double half_width_m_;
   GoalDriver driver_;
-  std::vector<Room> rooms_;              ///< In directions at equal angles, the first along O's x.
-  std::vector<Eigen::Vector2d> ends_O_;  ///< Of the last scan's beams.
+  std::vector<Room> rooms_;  ///< In equally spaced directions, the first along the x axis of O.
+  std::vector<Eigen::Vector2d> ends_O_;  ///< Endpoints of the last scan's beams.
   std::vector<Eigen::Vector2d> hidden_O_;
-  std::deque<Eigen::Vector2d> crumbs_O_;  ///< Where it has been, and where it could not go.
+  std::deque<Eigen::Vector2d> crumbs_O_;  ///< Positions where it has been or could not go.
   bool has_seen_ = false;
   Eigen::Vector2d goal_O_ = Eigen::Vector2d::Zero();
   int turns_left_ = 0;  ///< Thirds of a turn.

@@ -15,11 +15,11 @@
 namespace tagfield {
 namespace {
 
-/// Share of the grid on the progress bar; the rest is the tags'.
+/// Fraction of the progress bar for the grid; the rest is for the tags.
 constexpr double kGridShare = 0.9;
 
-/// The places in an order that soon has something near every cell, so that the far ones can be
-/// left out: each next one halves the gaps.
+/// The poses in an order that soon has one near every cell, so that the far ones can be skipped:
+/// each pass halves the gaps.
 std::vector<std::size_t> halving_order(const std::vector<std::size_t>& places) {
   std::vector<std::size_t> order;
   std::vector<char> taken(places.size(), 0);
@@ -61,15 +61,15 @@ class GridRun {
 
  private:
   void add(std::size_t antenna, int number, const DriveSample& sample) {
-    const AntennaPlace place(scenario_, scenario_.antennas[antenna], *world_, sample.X_WA[antenna],
-                             request_.seed);
+    const AntennaAtPose place(scenario_, scenario_.antennas[antenna], *world_, sample.X_WA[antenna],
+                              request_.seed);
     const std::size_t rows = coverage_.grid.rows;
     parallel_for(rows * coverage_.layers.size(), request_.threads, [&](std::size_t i) {
       add_row(place, number, coverage_.layers[i / rows], i % rows, i);
     });
   }
 
-  void add_row(const AntennaPlace& place, int number, CoverageLayer& layer, std::size_t row,
+  void add_row(const AntennaAtPose& place, int number, CoverageLayer& layer, std::size_t row,
                std::size_t key) const {
     thread_local std::vector<RadioPath> paths;
     const CoverageGrid& grid = coverage_.grid;
@@ -78,7 +78,7 @@ class GridRun {
       CoverageCell& cell = layer.cells[row * grid.columns + column];
       const Eigen::Vector2d middle = grid.middle(column, row);
       const Eigen::Vector3d p_WT(middle.x(), middle.y(), layer.height_m);
-      // Nothing that this place could do would change the cell.
+      // No result for this pose could change the cell.
       if (cell.probability >= 1.0 && cell.margin_db >= place.most_margin_db(*request_.tag, p_WT)) {
         continue;
       }
@@ -133,7 +133,7 @@ Coverage cover(const Scenario& scenario, const std::vector<DriveSample>& samples
 }
 
 CoverageGrid grid_over(const Eigen::AlignedBox2d& region, double step_m, std::size_t most_cells) {
-  // A region that is a whole number of steps wide but for rounding has no cell more.
+  // Rounding must not add a cell to a region that is an integer number of steps wide.
   const Eigen::Vector2d counts = (region.sizes().array() / step_m - 1e-9).ceil().max(1.0);
   if (!(counts.x() * counts.y() <= static_cast<double>(most_cells))) {
     throw Error(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where a kind of tag would be read, and which of the scenario's own tags are. See
+/// Where tags of a given kind would be read, and which of the scenario's own tags are. See
 /// docs/coverage.md.
 #pragma once
 
@@ -22,29 +22,29 @@ namespace tagfield {
 struct CoverageRequest {
   std::vector<std::size_t> antennas;    ///< Indices into Scenario::antennas.
   std::shared_ptr<const TagModel> tag;  ///< The kind of tag; must be set.
-  Orientations orientations;            ///< Of a tag in the grid.
+  Orientations orientations;            ///< Of a tag at a grid cell.
   std::vector<double> heights_m;        ///< One layer each.
   CoverageGrid grid;
   std::uint64_t seed = 1;
   int threads = 1;                                ///< The results do not depend on it.
-  const std::atomic<bool>* stop = nullptr;        ///< Set by others to end early.
-  std::function<void(double share)> on_progress;  ///< Called now and then, or empty.
+  const std::atomic<bool>* stop = nullptr;        ///< Set by the caller to end early.
+  std::function<void(double share)> on_progress;  ///< Called from time to time; may be empty.
 };
 
-/// Grid and tags of the request over all places of `samples`; the words are left to the caller.
-/// Throws Error if it was stopped.
+/// Grid and tags of the request over all poses of `samples`; texts are left to the caller. Throws
+/// Error if it was stopped.
 Coverage cover(const Scenario& scenario, const std::vector<DriveSample>& samples,
                const CoverageRequest& request);
 
 /// Throws Error if the request was stopped.
 void throw_if_stopped(const CoverageRequest& request);
 
-/// A grid of cells of `step_m` that covers `region` [m]. Throws Error if that is over
+/// A grid of cells of `step_m` that covers `region` [m]. Throws Error if that takes more than
 /// `most_cells`.
 CoverageGrid grid_over(const Eigen::AlignedBox2d& region, double step_m,
                        std::size_t most_cells = 4'000'000);
 
-/// How many single links the grid asks for: cells × layers × antenna places.
+/// Number of links to evaluate for the grid: cells × layers × antenna poses.
 double links_of(const std::vector<DriveSample>& samples, const CoverageRequest& request);
 
 }  // namespace tagfield

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Null for the power of what never arrives.
+/// Null for the power of a signal that never arrives.
 Json power(double db) { return db < -250.0 ? Json(nullptr) : Json(db); }
 
 Json to_json(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }

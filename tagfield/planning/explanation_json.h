@@ -9,7 +9,7 @@
 
 namespace tagfield {
 
-/// All of it; powers of what never arrives are null.
+/// The complete explanation; powers of signals that never arrive are null.
 nlohmann::ordered_json to_json(const LinkExplanation& link);
 
 }  // namespace tagfield

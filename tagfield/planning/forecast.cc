@@ -22,15 +22,15 @@ namespace tagfield {
 namespace {
 
 constexpr double kReply_dbm = -50.0;
-/// Who is heard, and by which reader first, is looked at no less often than this.
+/// Longest interval between updates of which tags are heard, and by which reader first.
 constexpr double kPiece_s = 0.25;
 
-/// A stretch of time in which one antenna sends, and who has power does not change.
+/// An interval in which one antenna transmits and the set of powered tags does not change.
 struct Turn {
   std::size_t port = 0;
   double begin_s = 0.0;
   double end_s = 0.0;
-  double carrier_s = 0.0;  ///< The carrier is that of this moment.
+  double carrier_s = 0.0;  ///< Time that determines the carrier.
 };
 
 std::size_t port_named(const ForecastRequest& request, const std::string& name) {
@@ -39,8 +39,8 @@ std::size_t port_named(const ForecastRequest& request, const std::string& name) 
   return port;
 }
 
-/// Hops that were made at the antenna's last update by `time_s`, and when that was. Who has power
-/// is looked at with each update, on the carrier that is then.
+/// The antenna's last update by `time_s`, and the number of hops made by then. Each update
+/// determines which tags have power, on its own carrier.
 struct LastUpdate {
   double stamp_s = 0.0;
   double hop = 0.0;
@@ -50,11 +50,11 @@ LastUpdate last_update(const AntennaParameters& antenna, double time_s) {
   return {stamp_s, std::floor(stamp_s / physical(antenna)->plan.dwell_s + 1e-9)};
 }
 
-/// A port's turn in pieces on one carrier each.
+/// Adds a port's turn, in pieces with one carrier each.
 void add_turn(const ForecastRequest& request, std::size_t port, double begin_s, double end_s,
               std::vector<Turn>& turns) {
   const AntennaParameters& antenna = request.ports[port].antenna;
-  // What is read after the antenna's last update is not told any more.
+  // Reads after the antenna's last update are no longer reported.
   end_s = std::min(end_s, last_update(antenna, request.duration_s).stamp_s);
   double at = begin_s;
   while (at < end_s - 1e-9) {
@@ -69,7 +69,7 @@ void add_turn(const ForecastRequest& request, std::size_t port, double begin_s, 
   }
 }
 
-/// Turns of all readers' ports in order of time.
+/// Turns of all readers' ports, in chronological order.
 std::vector<Turn> turns_of(const ForecastRequest& request) {
   std::vector<AntennaParameters> antennas;
   for (const ForecastPort& port : request.ports) antennas.push_back(port.antenna);
@@ -99,10 +99,10 @@ struct Link {
   const ForecastLink* link = nullptr;
 };
 
-/// The links of a port that hold at a time that only grows.
+/// The links of a port that are valid at a given time; times must not decrease.
 class HoldingLinks {
  public:
-  /// `links` by rising begin.
+  /// `links` must be sorted by their begin.
   explicit HoldingLinks(const std::vector<Link>& links) : links_(links) {}
 
   const std::vector<Link>& at(double time_s) {
@@ -124,12 +124,13 @@ class HoldingLinks {
 class Sampler {
  public:
   explicit Sampler(const ForecastRequest& request);
-  /// What one sample reads: by group and tag, and by tag and port.
+  /// Runs one sample: what it reads by group and tag, and by tag and port.
   void sample(std::size_t first, std::size_t place, Forecast& forecast,
               std::vector<std::vector<CountedReads>>& by_port) const;
 
  private:
-  /// Of tag, port and channel; whether it was the first of that tag and port.
+  /// Called with tag, port and channel; returns whether it was the first read of that tag by that
+  /// port.
   using OnRead = std::function<bool(std::size_t, std::size_t, std::size_t)>;
   [[nodiscard]] std::size_t channel_on(std::size_t number, std::size_t port, double time_s) const;
   [[nodiscard]] std::size_t sampled_carrier(std::size_t port, std::size_t channel) const;
@@ -146,10 +147,10 @@ class Sampler {
 
   const ForecastRequest& request_;
   std::vector<Turn> turns_;
-  std::vector<Time> changes_;             ///< When turns begin or end, rising.
+  std::vector<Time> changes_;             ///< When turns begin or end, in ascending order.
   std::vector<std::vector<Link>> links_;  ///< By port.
   std::vector<std::size_t> group_of_;
-  std::vector<std::size_t> turn_of_;  ///< By port: its reader's number.
+  std::vector<std::size_t> turn_of_;  ///< By port: the number of its reader.
 };
 
 Sampler::Sampler(const ForecastRequest& request)
@@ -188,8 +189,8 @@ Sampler::Sampler(const ForecastRequest& request)
   }
 }
 
-/// The channel that the reader is on: it hops over all channels of its plan in a random order,
-/// drawn for each sample, as readers do (channel_at()).
+/// The reader's current channel: it hops over all channels of its plan in a random order, drawn for
+/// each sample, as readers do (channel_at()).
 std::size_t Sampler::channel_on(std::size_t number, std::size_t port, double time_s) const {
   const RadioModel& model = *physical(request_.ports[port].antenna);
   if (hopped_channels(model) < 2) return 0;
@@ -198,13 +199,13 @@ std::size_t Sampler::channel_on(std::size_t number, std::size_t port, double tim
                     stream_key(model.plan.name), stream(), turn_of_[port]);
 }
 
-/// The one of the states' carriers that stands for a channel.
+/// The carrier of the link states that represents a channel.
 std::size_t Sampler::sampled_carrier(std::size_t port, std::size_t channel) const {
   const RadioModel& model = *physical(request_.ports[port].antenna);
   return hopped_channels(model) < 2 ? 0 : sampled_carrier_of(model, channel);
 }
 
-/// Antennas without an inventory: each update reads all that is heard on its carrier.
+/// Antennas without an inventory: each update reads all tags that are heard on its carrier.
 void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& places,
                            const OnRead& on_read) const {
   for (std::size_t port = 0; port < request_.ports.size(); ++port) {
@@ -219,7 +220,7 @@ void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& p
       const double time_s = static_cast<double>(update) / antenna.rate_hz;
       const std::size_t channel = is_paper ? 0 : channel_on(number, port, time_s);
       const std::size_t carrier = is_paper ? 0 : sampled_carrier(port, channel);
-      // The paper's range is drawn once an update for all tags.
+      // The paper's range is drawn once per update, for all tags.
       const double draw = uniform(stream);
       for (const Link& link : holding.at(time_s)) {
         const bool is_heard =
@@ -231,7 +232,7 @@ void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& p
   }
 }
 
-/// Those that take part in a turn. Replies are equally strong: none is captured.
+/// The tags that take part in a turn. All replies are equally strong, so there is no capture.
 std::vector<TagOnAir> Sampler::heard_in(std::size_t number, const Turn& turn,
                                         const std::vector<std::size_t>& places,
                                         HoldingLinks& holding) const {
@@ -245,7 +246,7 @@ std::vector<TagOnAir> Sampler::heard_in(std::size_t number, const Turn& turn,
   return heard;
 }
 
-/// Pairs of a tag and a port with an inventory that can hear it at all.
+/// Number of pairs of a tag and a port with an inventory that can hear it at all.
 std::size_t Sampler::pairs_heard(const std::vector<std::size_t>& places) const {
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t port = 0; port < request_.ports.size(); ++port) {
@@ -275,9 +276,9 @@ std::vector<std::unique_ptr<Inventory>> Sampler::inventories_of(std::size_t numb
   return inventories;
 }
 
-/// The inventories themselves, slot by slot, from change to change of who sends and who is heard;
-/// until nothing is left that would be read for the first time, unless all reads are counted.
-/// `on_read` tells whether one was.
+/// Runs the inventories, slot by slot, between changes of which antenna transmits and which tags
+/// are heard. Ends when nothing is left to be read for the first time, as reported by `on_read`,
+/// unless all reads are counted.
 void Sampler::run_inventories(std::size_t number, const std::vector<std::size_t>& places,
                               const OnRead& on_read) const {
   TagMemories memories;
@@ -327,7 +328,7 @@ void Sampler::sample(std::size_t first, std::size_t place, Forecast& forecast,
   std::vector<std::size_t> places(count);
   for (std::size_t tag = 0; tag < count; ++tag) {
     const auto drawn =
-        static_cast<std::size_t>(uniform(stream) * static_cast<double>(kFadingPlaces));
+        static_cast<std::size_t>(uniform(stream) * static_cast<double>(kFadingPositions));
     places[tag] = request_.tags[tag].place.value_or(drawn);
   }
   const auto on_read = [&](std::size_t tag, std::size_t port, std::size_t channel) {
@@ -385,7 +386,7 @@ Forecast forecast(const ForecastRequest& request) {
   result.read_by_group.assign(
       request.samples,
       std::vector<std::vector<char>>(result.groups.size(), std::vector<char>(tags, 0)));
-  // Sums in the order of the samples, so that they don't depend on the threads.
+  // Sum in the order of the samples, so that results don't depend on the threads.
   std::vector<std::vector<std::vector<CountedReads>>> by_port(request.samples);
   parallel_for(request.samples, request.threads, [&](std::size_t sample) {
     by_port[sample].resize(tags);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
-/// What the budget has to spare at its weaker end [dB].
+/// Margin at the weaker end of the budget [dB].
 double margin_db(const LinkExplanation& link) {
   if (!link.physical || !link.physical->arrives) return kNothing;
   return std::min(link.physical->tag_margin_db(), link.physical->reader_margin_db());

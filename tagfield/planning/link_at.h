@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One link of a scenario at a moment of its run, explained.
+/// Explanation of one link of a scenario at a moment of its run.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,18 @@
 
 namespace tagfield {
 
-/// Runs `scenario` to `time` without reads and explains the link between `antenna` and `tag`, which
-/// must be its own, with all others where they are then. Throws Error if the run is over before.
+/// Runs `scenario` to `time` without reads and explains the link between `antenna` and `tag`, both
+/// of which must belong to it, with everything else where it is at that time. Throws Error if the
+/// run is over before.
 LinkExplanation explain_link_at(const Scenario& scenario, const AntennaSpec& antenna,
                                 const TagSpec& tag, Time time, std::uint64_t seed);
 
-/// Whether `a` is to be shown rather than `b`: it reads the tag, or has more to spare in the budget
-/// at its weaker end, or is nearer within its range.
+/// Whether `a` is the better link to show: it reads the tag, or has the larger margin at its weaker
+/// end, or is farther inside its range.
 bool is_better(const LinkExplanation& a, const LinkExplanation& b);
 
-/// That of the antenna whose link is the best; of equal ones the first. Throws Error on a scenario
-/// without antennas, too.
+/// Explains the link of the antenna with the best link to the tag; of equal ones, the first. Throws
+/// Error as explain_link_at(), and on a scenario without antennas.
 LinkExplanation explain_best_link_at(const Scenario& scenario, const TagSpec& tag, Time time,
                                      std::uint64_t seed);
 

@@ -15,9 +15,9 @@
 namespace tagfield {
 namespace {
 
-/// Below this nothing gets through, however little it may take [dBm].
+/// Powers below this count as nothing [dBm].
 constexpr double kNothing_dbm = -250.0;
-/// Ends in one place would send the paper's RSSI beyond all bounds [m].
+/// Least distance: with both ends at one point, the paper's RSSI would diverge [m].
 constexpr double kLeastLinkDistance = 1e-3;
 
 std::optional<Time> turn_of(const Scenario& scenario, const std::string& antenna, Time time) {
@@ -50,7 +50,7 @@ void add_receiver(const RadioModel& model, const RadioLink& of_link, const Carri
   const Reply reply = reply_of(of_link, carrier.phase_offset_rad, Eigen::Vector3d::Zero());
   link.snr_db = of_link.reply_dbm - noise_dbm(hardware);
   link.phase_rad = wrap_to_two_pi(reply.phase_rad);
-  // A reply far below the noise has any phase: uniform over a turn.
+  // The phase of a reply far below the noise is uniform over 2π.
   const double uniform_rad = kPi / std::sqrt(3.0);
   link.phase_sigma_rad = uniform_rad;
   if (!link.arrives) return;
@@ -97,10 +97,10 @@ PhysicalLink physical_link(const Scenario& scenario, const LinkQuestion& questio
 
 double normal_above(double x) { return 0.5 * std::erfc(x / std::sqrt(2.0)); }
 
-/// Share of replies whose RSSI by eq. (5) is at least the antenna's sensitivity.
+/// Fraction of replies whose RSSI by eq. (5) is at least the antenna's sensitivity.
 double heard_probability(const PaperAntenna& antenna, double distance_m) {
   if (!antenna.sensitivity_dbm) return 1.0;
-  // RSSIs are whole numbers.
+  // RSSIs are integers.
   const double least_dbm = std::ceil(*antenna.sensitivity_dbm) - 0.5;
   const double least = std::pow(10.0, least_dbm / 40.0);
   const double apart_m = std::max(distance_m, kLeastLinkDistance);

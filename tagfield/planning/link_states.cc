@@ -31,7 +31,7 @@ LinkStates::LinkStates(const std::vector<double>& margins_db) {
   if (!any) steps_.clear();
 }
 
-std::size_t LinkStates::carriers() const { return steps_.size() / kFadingPlaces; }
+std::size_t LinkStates::carriers() const { return steps_.size() / kFadingPositions; }
 
 double LinkStates::margin_db(std::size_t place, std::size_t carrier) const {
   const std::int8_t step = steps_[place * carriers() + carrier];
@@ -49,8 +49,8 @@ double LinkStates::share_heard(std::size_t place, double less_db) const {
 
 double LinkStates::share_heard(double less_db) const {
   double sum = 0.0;
-  for (std::size_t place = 0; place < kFadingPlaces; ++place) sum += share_heard(place, less_db);
-  return sum / static_cast<double>(kFadingPlaces);
+  for (std::size_t place = 0; place < kFadingPositions; ++place) sum += share_heard(place, less_db);
+  return sum / static_cast<double>(kFadingPositions);
 }
 
 double LinkStates::best_db() const {

@@ -11,12 +11,12 @@
 namespace tagfield {
 namespace {
 
-/// What costs less does not explain anything [dB].
+/// Smaller losses don't explain anything [dB].
 constexpr double kWorthSaying_db = 3.0;
 constexpr double kSeen_db = 1.0;
 constexpr double kSeldom = 0.5;
 
-/// A line's gain by the beginning of its words; 0 where there is none.
+/// Gain of the line that starts with `beginning`; 0 if there is none.
 double line(const std::vector<BudgetLine>& lines, const std::string& beginning) {
   for (const BudgetLine& line : lines) {
     if (line.what.rfind(beginning, 0) == 0) return line.db;
@@ -40,7 +40,7 @@ bool is_blocked(const std::vector<SurfaceOnPath>& between) {
                      [](const SurfaceOnPath& met) { return met.opaque; });
 }
 
-/// The greatest of the losses that need not be, as ", …"; the distance where there is none.
+/// The greatest of the avoidable losses, as ", …"; the distance if there is none.
 std::string cause(const RadioModel& model, const TagModel& tag, const LinkExplanation& link) {
   const PhysicalLink& physical = *link.physical;
   const double beam_db = line(physical.to_tag, "antenna gain") - to_db(peak_gain(model.antenna));
@@ -67,12 +67,12 @@ std::string cause(const RadioModel& model, const TagModel& tag, const LinkExplan
 
 std::string margins(const PhysicalLink& link) {
   std::string at_tag = signed_db(link.tag_margin_db()) + " at the tag";
-  // What the reader would hear of a tag without power says nothing.
+  // For a tag without power, the margin at the reader means nothing.
   if (link.tag_margin_db() < 0.0) return at_tag;
   return at_tag + ", " + signed_db(link.reader_margin_db()) + " at the reader";
 }
 
-/// The strongest of the readers that disturb, at the tag or at the reader.
+/// The strongest interfering reader, at the tag or at the reader.
 std::string disturbed(const LinkInterference& by) {
   const bool at_tag = !by.tag_hears();
   const auto power = [&](const InterferingReader& one) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A link in one sentence.
+/// Summary of a link in one sentence.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace tagfield {
 
-/// "+6.2 dB", with a minus sign as books print it; "nothing" where nothing gets there at all.
+/// "+6.2 dB", with a typographic minus sign; "nothing" if no power arrives at all.
 std::string signed_db(double db);
 
-/// Sets `read` and `verdict` from all else.
+/// Sets `read` and `verdict` from the other members.
 void judge(const LinkQuestion& question, LinkExplanation& link);
 
 }  // namespace tagfield

@@ -15,13 +15,13 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::size_t kMostCarriers = 8;
-constexpr std::size_t kPlaces = kFadingPlaces;
+constexpr std::size_t kPlaces = kFadingPositions;
 
 std::size_t step_of_carriers(std::size_t channels) {
   return (channels + kMostCarriers - 1) / kMostCarriers;
 }
 
-/// What a one-way gain is made of at the tag's middle.
+/// A ray's contribution to the one-way gain at the tag's centre.
 struct Ray {
   Complex h;
   double length_m = 0.0;
@@ -30,7 +30,7 @@ struct Ray {
 };
 
 using Rays = std::vector<Ray>;
-/// |h|² by carrier and place.
+/// |h|² by carrier and position.
 using Powers = std::vector<double>;
 
 void trace(const RadioView& view, const ImageSet& images, const TagEnd& tag,
@@ -56,7 +56,8 @@ Rays rays_of(const RadioView& view, bool receiver, const TagEnd& tag,
   return rays;
 }
 
-/// A ray at the nine places is its middle's times a step along x and one along y.
+/// A ray's field at the nine positions is that at the centre times a phase step along x and one
+/// along y.
 void add_places(const Ray& ray, double k, double k_middle, std::array<Complex, kPlaces>& h) {
   const double quarter = 0.5 * kPi / k;
   const Complex middle = ray.h * (k_middle / k) * std::polar(1.0, -(k - k_middle) * ray.length_m);
@@ -67,7 +68,7 @@ void add_places(const Ray& ray, double k, double k_middle, std::array<Complex, k
   for (std::size_t i = 0; i < kPlaces; ++i) h[i] += middle * x[i % 3] * y[i / 3];
 }
 
-/// A diffuse field is Gaussian; its power is that of all rays over K.
+/// Adds a diffuse field: Gaussian, with the power of all rays divided by K.
 void add_diffuse(const RadioView& view, const Rays& rays, RandomStream& stream,
                  std::array<Complex, kPlaces>& h) {
   if (!view.model.effects.diffuse || !view.model.diffuse_k_db) return;
@@ -94,7 +95,7 @@ Powers powers_of(const RadioView& view, const Rays& rays, const std::vector<doub
   return powers;
 }
 
-/// Powers that come in for a gain of 1 [dBm].
+/// Power received for a gain of 1 [dBm].
 double sent_dbm(const RadioModel& model, const TagModel& tag) {
   return model.transmit_power_dbm - model.cable_loss_db - tag.detuning_db;
 }
@@ -150,7 +151,7 @@ std::size_t hopped_channels(const RadioModel& model) {
 std::size_t sampled_carrier_of(const RadioModel& model, std::size_t channel) {
   const std::size_t channels = hopped_channels(model);
   const std::size_t step = step_of_carriers(channels);
-  // As many as sampled_carriers() has, of which the last stands for what is left over.
+  // As many as sampled_carriers() returns; the last one represents the remaining channels.
   const std::size_t count = (channels - step / 2 + step - 1) / step;
   return std::min(channel / step, count - 1);
 }

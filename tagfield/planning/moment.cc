@@ -32,7 +32,7 @@ Scenario as_planned(const Scenario& scenario, Diagnostics& diagnostics) {
     if (drives(robot)) plan(robot, diagnostics);
     any_drives = any_drives || drives(robot);
   }
-  // Nobody may be left whose arrival would end the run.
+  // There may be no robot left whose arrival would end the run.
   if (!any_drives && !planned.duration_s) planned.duration_s = planned.time_step_s;
   return planned;
 }

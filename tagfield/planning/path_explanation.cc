@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-/// Weaker paths bring nothing: a pattern's null, or a wall that lets nothing through [dB].
+/// Weaker paths carry no power: a null of the pattern, or an impenetrable wall [dB].
 constexpr double kLeast_db = -300.0;
 
 std::vector<std::string> parts_of(const std::string& scoped) {
@@ -24,7 +24,7 @@ std::vector<std::string> parts_of(const std::string& scoped) {
   return parts;
 }
 
-/// Names that say nothing, with or without a number behind them.
+/// Whether a name is generic, with or without a trailing number.
 bool is_generic(const std::string& name) {
   const std::string word = name.substr(0, name.find_last_not_of("0123456789_") + 1);
   constexpr const char* kWords[] = {"link",   "base_link", "base", "body",     "box",
@@ -75,7 +75,7 @@ void set_relative(std::complex<double> gain, std::complex<double> free_gain,
   told.relative_phase_rad = wrap_to_pi(std::arg(ratio));
 }
 
-/// What an edge costs is what is left of a free way of the same length.
+/// The gain of an edge is relative to a free path of the same length.
 PathExplanation explain(const RadioView& view, const TagEnd& tag, const DiffractedPath& path,
                         double direct_m, std::complex<double> free_gain) {
   const std::complex<double> gain = gain_of(path, view, tag);

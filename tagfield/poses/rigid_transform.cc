@@ -13,14 +13,14 @@ Eigen::Quaterniond turned_about(const Eigen::Vector3d& axis, double angle_rad) {
   return {c, s * axis.x(), s * axis.y(), s * axis.z()};
 }
 
-/// By quaternions' own angle, the shorter way round.
+/// Spherical interpolation of quaternions along the shorter arc.
 Eigen::Quaterniond on_great_arc(const Eigen::Quaterniond& from, Eigen::Quaterniond to,
                                 double fraction) {
   if (from.dot(to) < 0.0) to.coeffs() = -to.coeffs();
   const double angle =
       2.0 * arc_tangent((to.coeffs() - from.coeffs()).norm(), (to.coeffs() + from.coeffs()).norm());
   const double whole = sine(angle);
-  // So near to each other the arc is its chord.
+  // For nearly equal rotations, the arc is its chord.
   if (!(whole > 1e-9)) {
     return Eigen::Quaterniond(from.coeffs() + fraction * (to.coeffs() - from.coeffs()));
   }

@@ -34,28 +34,28 @@ inline bool is_finite(const RigidTransform& X) {
   return X.translation.allFinite() && X.rotation.coeffs().allFinite();
 }
 
-/// `quaternion` as a rotation: as it is where its length is 1 within 1e-9, so that what was written
-/// out comes back the same; normalized where it is 0.9 to 1.1; none otherwise.
+/// `quaternion` as a rotation: unchanged if its norm is 1 within 1e-9, so that written values are
+/// restored exactly; normalized if the norm is 0.9 to 1.1; otherwise none.
 std::optional<Eigen::Quaterniond> as_rotation(const Eigen::Quaterniond& quaternion);
 
 /// A pure translation [m].
 RigidTransform from_translation(const Eigen::Vector3d& translation);
 
-/// Position [m] and roll, pitch, yaw [rad] about the fixed x, y, z axes in this order, as SDF's
-/// `<pose>` and URDF's `rpy` mean them: R = Rz(yaw) Ry(pitch) Rx(roll).
+/// Position [m] and roll, pitch, yaw [rad] about the fixed x, y, z axes in this order, as in SDF's
+/// `<pose>` and URDF's `rpy`: R = Rz(yaw) Ry(pitch) Rx(roll).
 RigidTransform from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy);
 
 /// A pose in the plane z = 0: (x, y) [m] and yaw [rad].
 RigidTransform from_planar(double x, double y, double yaw);
 
-/// Turns vectors of the plane by an angle [rad], counterclockwise.
+/// Rotates vectors in the plane counterclockwise by an angle [rad].
 Eigen::Matrix2d rotation_in_plane(double angle_rad);
 
 /// Heading about z [rad], in [-π, π].
 double yaw_of(const Eigen::Quaterniond& rotation);
 
-/// From `from` (fraction 0) to `to` (fraction 1): positions linearly, rotations along the shorter
-/// great arc (slerp).
+/// Interpolates from `from` (fraction 0) to `to` (fraction 1): positions linearly, rotations along
+/// the shorter great arc (slerp).
 RigidTransform interpolate(const RigidTransform& from, const RigidTransform& to, double fraction);
 
 }  // namespace tagfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A motion as poses at given times.
+/// Motion as a sequence of timestamped poses.
 #pragma once
 
 #include <optional>
@@ -23,20 +23,20 @@ struct AntennaPose {
   Time stamp;
   std::string antenna;
   RigidTransform X_WA;
-  /// Of a believed pose's x, y, yaw [m², m·rad, rad²], where it is told.
+  /// Of a believed pose's x, y, yaw [m², m·rad, rad²], if known.
   std::optional<Eigen::Matrix3d> covariance{};
 };
 
-/// Poses in rising order of time.
+/// Poses in time order.
 using Trajectory = std::vector<StampedPose>;
 
-/// Throws Error unless stamps rise strictly.
+/// Throws Error unless timestamps are strictly increasing.
 void require_rising_stamps(const Trajectory& trajectory);
 
 /// Pose at `stamp`, interpolated between the two around it; none before the first or after the
 /// last. `max_gap` > 0 refuses to interpolate between two poses further apart in time than that,
-/// unless the body moved less than `still_distance` [m] between them. A trajectory of one pose
-/// stands still for ever.
+/// unless the body moved less than `still_distance` [m] between them. A trajectory of one pose is
+/// stationary at all times.
 std::optional<RigidTransform> pose_at(const Trajectory& trajectory, Time stamp,
                                       Duration max_gap = Duration::zero(),
                                       double still_distance = 0.0);
@@ -45,7 +45,7 @@ std::optional<RigidTransform> pose_at(const Trajectory& trajectory, Time stamp,
 /// empty.
 RigidTransform held_pose_at(const Trajectory& trajectory, Time stamp);
 
-/// Its place [m] alone, which takes a fraction of the time, to the same bits.
+/// Only the position [m] of held_pose_at(), bit-identical, in a fraction of the time.
 Eigen::Vector3d held_position_at(const Trajectory& trajectory, Time stamp);
 
 /// Sum of the distances between consecutive positions [m].

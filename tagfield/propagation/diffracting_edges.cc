@@ -13,18 +13,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Shorter edges, about a wavelength's, don't bend waves as the theory has it [m].
+/// Shorter edges, below about a wavelength, don't diffract waves as in the theory [m].
 constexpr double kLeastLength = 0.3;
-/// Plates up to this thick, about a tenth of a wavelength, are sheets [m].
+/// Plates up to this thickness, about a tenth of a wavelength, count as sheets [m].
 constexpr double kThinPlate = 0.03;
 constexpr double kParallel = 0.9999;  ///< Cosine.
-/// How far from the surface it is looked whether something covers it [m],
+/// Distance from the surface at which covering solids are searched for [m],
 constexpr double kAbove = 2e-3;
-/// and how densely along an edge [m].
+/// and spacing of these samples along an edge [m].
 constexpr double kSampling = 0.1;
 constexpr std::size_t kMostSamples = 64;
 
-/// A facet's point is less far from its plane [m].
+/// Points of a facet are closer than this to its plane [m].
 constexpr double kFlat = 1e-3;
 
 void set_mirrors(const RadioScene& waves, std::uint32_t solid, DiffractingEdge& edge) {
@@ -40,7 +40,8 @@ void set_mirrors(const RadioScene& waves, std::uint32_t solid, DiffractingEdge& 
   }
 }
 
-/// One edge in the middle of a thin plate's two; none where they are no such.
+/// Sets `plate` to one edge midway between the two of a thin plate; false if they aren't such
+/// edges.
 bool as_plate(const DiffractingEdge& one, const DiffractingEdge& other, DiffractingEdge& plate) {
   const Vector3d across = other.from_W - one.from_W;
   const double thickness = across.norm();
@@ -67,7 +68,7 @@ bool as_plate(const DiffractingEdge& one, const DiffractingEdge& other, Diffract
   return false;
 }
 
-/// `edges` are in the order of their beginnings' x.
+/// `edges` are sorted by from_W.x().
 std::vector<DiffractingEdge> with_plates(std::vector<DiffractingEdge> edges) {
   std::vector<DiffractingEdge> all;
   std::vector<char> used(edges.size(), 0);
@@ -85,8 +86,8 @@ std::vector<DiffractingEdge> with_plates(std::vector<DiffractingEdge> edges) {
   return all;
 }
 
-/// Whether the space before both faces and between them is one at `p_W`: no other solid covers part
-/// of it. (An edge within another solid, as in a room that is one box, is free too.)
+/// Whether the space in front of both faces and between them is one region at `p_W`: no other solid
+/// covers part of it. (An edge inside another solid, as in a room that is one box, is free too.)
 bool is_free(const RadioScene& waves, const DiffractingEdge& edge, const Vector3d& p_W) {
   const double above = kAbove + 0.5 * edge.thickness_m;
   Vector3d out = Vector3d::Zero();
@@ -103,7 +104,7 @@ bool is_free(const RadioScene& waves, const DiffractingEdge& edge, const Vector3
   });
 }
 
-/// The parts of `edge` that are free, as far as samples tell.
+/// Adds the free parts of `edge`, as determined by sampling.
 void add_free_parts(const RadioScene& waves, const DiffractingEdge& edge,
                     std::vector<DiffractingEdge>& edges) {
   const auto wanted = static_cast<std::size_t>(std::ceil(edge.length_m / kSampling));

@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// An antenna or image must be further than this before a facet's plane to be mirrored [m].
+/// An antenna or image must be further than this from a facet's plane to be mirrored [m].
 constexpr double kLeastHeight = 1e-6;
 
 class Builder {
@@ -50,13 +50,13 @@ class Builder {
     return scene_.facets()[facet].normal_W.dot(normal) > 0.0;
   }
 
-  /// Whether some of `facet` is before the mirror of `image`.
+  /// Whether part of `facet` is in front of the facet of `image`.
   [[nodiscard]] bool is_before_mirror(const Image& image, std::uint32_t facet) const {
     return image.facet != facet &&
            scene_.reaches(image.facet, is_front(image.facet, image.normal_W), facet);
   }
 
-  /// 1 where the facet mirrors in front for a wave from `p`, -1 behind, 0 not at all.
+  /// 1 if the facet reflects a wave from `p` on its front, -1 if on its back, 0 if not at all.
   [[nodiscard]] int side(const Facet& facet, const Eigen::Vector3d& p) const {
     const double height = facet.normal_W.dot(p) - facet.offset_m;
     const int there = height > kLeastHeight ? 1 : (height < -kLeastHeight ? -1 : 0);
@@ -81,7 +81,7 @@ class Builder {
     add_seen(image, facet);
   }
 
-  /// Adds the image unless no place could see it.
+  /// Adds the image unless it is visible from nowhere.
   void add_seen(const Image& image, const Facet& facet) {
     if (facet.unbounded) {
       add_endless(image);
@@ -115,7 +115,7 @@ class Builder {
   std::vector<char> inside_;
   ImageSet set_;
   std::vector<BeamSides> beams_;  ///< Of each image.
-  std::int32_t first_ = 0;        ///< The first image that is not mirrored yet.
+  std::int32_t first_ = 0;        ///< Index of the first image that has not been mirrored yet.
 };
 
 }  // namespace

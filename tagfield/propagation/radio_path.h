@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The way a wave takes from an antenna to a tag: straight, or by way of mirrors.
+/// The path of a wave from an antenna to a tag: direct, or reflected by facets.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,23 +10,23 @@
 
 namespace tagfield {
 
-/// Most mirrors a path may have.
+/// Maximum number of reflections on a path.
 inline constexpr int kMostBounces = 3;
 
-/// Where a facet mirrors the wave.
+/// Reflection of the wave by a facet.
 struct Bounce {
   std::uint32_t solid = 0;                        ///< Index into Scene::collisions.
   std::uint32_t facet = 0;                        ///< Index into RadioScene::facets().
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector3d normal_W =
-      Eigen::Vector3d::Zero();  ///< Unit vector, to the side where the wave is.
+      Eigen::Vector3d::Zero();  ///< Unit vector, towards the side of the wave.
 };
 
-/// A solid that the wave goes through on one leg.
+/// A solid that the wave passes through on one leg.
 struct Crossing {
   std::uint32_t solid = 0;     ///< Index into Scene::collisions.
-  int leg = 0;                 ///< 0 is the one that leaves the antenna.
-  double length_m = 0.0;       ///< Inside, along the leg; 0 for a single sheet.
+  int leg = 0;                 ///< Leg 0 starts at the antenna.
+  double length_m = 0.0;       ///< Length inside, along the leg; 0 for a single sheet.
   double cos_incidence = 1.0;  ///< At p_W, between the leg and the surface's normal: 0 … 1.
   Eigen::Vector3d normal_W =
       Eigen::Vector3d::Zero();  ///< Unit vector at p_W, against the wave's direction of travel.
@@ -39,13 +39,13 @@ struct Crossing {
 struct RadioPath {
   int bounce_count = 0;
   std::array<Bounce, kMostBounces> bounces;  ///< The first `bounce_count` are set.
-  std::vector<Crossing> crossings;           ///< In the order in which the wave meets them.
-  double length_m = 0.0;                     ///< Of all legs.
+  std::vector<Crossing> crossings;           ///< In the order in which the wave reaches them.
+  double length_m = 0.0;                     ///< Total of all legs.
   Eigen::Vector3d departure_W =
       Eigen::Vector3d::Zero();  ///< Unit vector: direction of travel at the antenna.
   Eigen::Vector3d arrival_W =
       Eigen::Vector3d::Zero();  ///< Unit vector: direction of travel at the tag.
-  bool blocked = false;         ///< Goes through something opaque; only when asked to keep such.
+  bool blocked = false;  ///< Passes through an opaque solid; only with TraceOptions::keep_blocked.
 };
 
 }  // namespace tagfield

@@ -15,19 +15,19 @@
 namespace tagfield {
 namespace {
 
-/// Higher than rounding errors by far [m].
+/// Far above rounding errors [m].
 constexpr double kHeight = 1e-6;
-/// More facets' pairs are not tabulated: the table would take more than 16 MB.
+/// With more facets, pairs are not tabulated: the table would take more than 16 MB.
 constexpr std::size_t kMostTabulated = 4096;
 constexpr char kInFront = 1;
 constexpr char kBehind = 2;
 
-/// By triangle of `mesh`, made of `collision`: whether it is part of a flat side.
+/// By triangle of `mesh`, which was made from `collision`: whether it is part of a flat side.
 std::vector<char> flat_triangles(const Collision& collision, const WeldedMesh& mesh) {
   const bool sphere = std::holds_alternative<Sphere>(collision.shape);
   std::vector<char> flat(mesh.triangles.size(), sphere ? 0 : 1);
   if (std::holds_alternative<Cylinder>(collision.shape)) {
-    // A fan for one cap, twice as many around, and a fan for the other.
+    // A fan for one cap, twice as many triangles for the side, and a fan for the other cap.
     for (std::size_t i = kCircleEdges; i < 3 * std::size_t{kCircleEdges}; ++i) {
       if (mesh.kept[i] != kNoTriangle) flat[mesh.kept[i]] = 0;
     }
@@ -40,7 +40,7 @@ Eigen::Vector3d corner(const Facet& facet, int i) {
          (i & 2 ? facet.size_m.y() : 0.0) * facet.axis_v_W;
 }
 
-/// On which sides of `plane` the endless facet `other` has points.
+/// On which sides of `plane` the unbounded facet `other` has points.
 char sides_of_endless(const Facet& plane, const Facet& other) {
   if (plane.normal_W.cross(other.normal_W).norm() > 1e-9) return kInFront | kBehind;
   const double height = plane.normal_W.dot(other.offset_m * other.normal_W) - plane.offset_m;
@@ -115,7 +115,7 @@ void RadioScene::add_solid(const Collision& collision, std::uint32_t solid, doub
   for (const Piece& piece : pieces.pieces) {
     shells_.push_back({solid, piece.closed, piece.inverted});
   }
-  // Triangles without an area, which no ray meets, are an open shell by themselves.
+  // Degenerate triangles, which no ray hits, form an open shell of their own.
   const auto flat_shell = static_cast<std::uint32_t>(shells_.size());
   shells_.push_back({solid, false, false});
   for (const std::uint32_t kept : mesh.kept) {

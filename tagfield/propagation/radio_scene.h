@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A world at rest as waves see it: flat mirrors, and what stands in the way.
+/// A static world for radio waves: flat reflecting facets, and obstructions.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,57 +15,59 @@
 
 namespace tagfield {
 
-/// A flat piece of surface that mirrors waves: the points p with normal_W · p = offset_m in one of
-/// its triangles, or all of them where it is unbounded.
+/// A flat piece of surface that reflects waves: the points p with normal_W · p = offset_m in one of
+/// its triangles, or all such points if it is unbounded.
 struct Facet {
-  Eigen::Vector3d normal_W;  ///< Unit vector; out of the solid where that is closed.
+  Eigen::Vector3d normal_W;  ///< Unit vector; outwards if the surface is closed.
   double offset_m = 0.0;
-  std::vector<std::array<Eigen::Vector3d, 3>> triangles_W;  ///< [m]; empty where unbounded.
+  std::vector<std::array<Eigen::Vector3d, 3>> triangles_W;  ///< [m]; empty if unbounded.
   std::uint32_t solid = 0;                                  ///< Index into Scene::collisions.
-  /// The closed surface it is part of, for RadioScene; facets of open ones have none and mirror on
-  /// both sides. One-sided facets mirror outside, or inside for an antenna within that surface.
+  /// Index into RadioScene::shells(): the surface that the facet is part of. Facets of open
+  /// surfaces reflect on both sides; those of closed ones on the outside, or on the inside for an
+  /// antenna inside that surface.
   std::uint32_t shell = 0;
   bool two_sided = false;
   bool unbounded = false;
   double area_m2 = std::numeric_limits<double>::infinity();
-  /// Its frame: `corner_W + u·axis_u + v·axis_v`, 0 ≤ u ≤ size[0], 0 ≤ v ≤ size[1], bounds it.
+  /// Its frame and bounding rectangle: corner_W + u·axis_u_W + v·axis_v_W, 0 ≤ u ≤ size_m[0], 0 ≤ v
+  /// ≤ size_m[1].
   Eigen::Vector3d corner_W;
   Eigen::Vector3d axis_u_W;
   Eigen::Vector3d axis_v_W;
-  Eigen::Vector2d size_m;  ///< Infinite where unbounded.
-  /// Fills that rectangle.
+  Eigen::Vector2d size_m;  ///< Infinite if unbounded.
+  /// Whether it fills that rectangle.
   bool rectangular = false;
 };
 
 struct RadioSceneOptions {
-  /// Smaller flat pieces don't mirror: below about a squared wavelength they rather scatter.
+  /// Smaller flat pieces don't reflect: below about a squared wavelength they scatter instead.
   double least_facet_m2 = 0.1;
-  /// By collision index: other than 0 where no wave passes (metal). May be empty: none.
+  /// By collision index: nonzero for solids that block waves (metal). Empty if there are none.
   std::vector<char> opaque;
 };
 
-/// Flat pieces that were too small to become facets.
+/// Flat pieces that are too small to be facets.
 struct LeftOut {
   std::size_t count = 0;
   double area_m2 = 0.0;
 };
 
-/// A closed surface of triangles, or the half space below a plane, or an open sheet.
+/// A closed surface of triangles, the half space below a plane, or an open sheet.
 struct Shell {
   std::uint32_t solid = 0;  ///< Index into Scene::collisions.
   bool closed = false;
   bool inverted = false;  ///< Its triangles' normals point inwards.
 };
 
-/// Facets are triangles of one solid that are flat to 0.1 mm and joined by edges, so a box has six,
-/// and a plane is one without bounds. The curved sides of cylinders and spheres don't mirror but
-/// stand in the way as triangulate() has them; cylinders' caps mirror. May be used by several
-/// threads at once.
+/// A facet consists of triangles of one solid that are flat to 0.1 mm and joined by edges, so a box
+/// has six facets; a plane is one unbounded facet. The curved surfaces of cylinders and spheres
+/// don't reflect but obstruct, as triangulated by triangulate(); the caps of cylinders reflect. May
+/// be used by several threads concurrently.
 class RadioScene {
  public:
-  /// Keeps no reference to `scene`. Throws Error, naming the collision, where RayScene does, and
-  /// if `opaque` is neither empty nor as long as the scene's collisions or `least_facet_m2` is not
-  /// a number ≥ 0.
+  /// Keeps no reference to `scene`. Throws Error, naming the collision, where RayScene does. Also
+  /// throws Error if `opaque` is neither empty nor as long as the scene's collisions, or if
+  /// `least_facet_m2` is not a number ≥ 0.
   explicit RadioScene(const Scene& scene, const RadioSceneOptions& options = {});
 
   [[nodiscard]] const std::vector<Facet>& facets() const { return facets_; }
@@ -79,8 +81,9 @@ class RadioScene {
   [[nodiscard]] std::uint32_t shell_of(std::uint32_t collision, std::uint32_t triangle) const {
     return triangle_shells_[first_triangles_[collision] + triangle];
   }
-  /// Whether facet `to` has points in front of (to the side of the normal), or behind, the plane of
-  /// facet `from`: only then can a wave go there from that side of `from`.
+  /// Whether facet `to` has points in front of the plane of facet `from` (on the side of the
+  /// normal) or, if `front` is false, behind it. Only then can a wave travel from that side of
+  /// `from` to `to`.
   [[nodiscard]] bool reaches(std::size_t from, bool front, std::size_t to) const;
 
  private:
@@ -94,7 +97,7 @@ class RadioScene {
   std::vector<Shell> shells_;
   std::vector<std::size_t> first_triangles_;
   std::vector<std::uint32_t> triangle_shells_;
-  std::vector<char> sides_;  ///< By pair; empty where there are too many.
+  std::vector<char> sides_;  ///< By pair of facets; empty if there are too many.
 };
 
 }  // namespace tagfield

@@ -8,10 +8,10 @@
 namespace tagfield {
 namespace {
 
-/// Hits of one shell that are nearer to each other count once: the line goes through an edge [m].
+/// Hits of one shell closer together than this count once: the line passes through an edge [m].
 constexpr double kSame = 1e-5;
 
-/// Directions along no wall or diagonal of anything.
+/// Directions unlikely to be parallel to walls or diagonals.
 const std::array<Eigen::Vector3d, 3>& odd_directions() {
   static const std::array<Eigen::Vector3d, 3> directions{
       Eigen::Vector3d(0.3719, 0.2837, 0.8839).normalized(),
@@ -20,7 +20,7 @@ const std::array<Eigen::Vector3d, 3>& odd_directions() {
   return directions;
 }
 
-/// Sets which half spaces `p` is in; returns which shells are half spaces.
+/// Sets which half spaces contain `p`; returns which shells are half spaces.
 std::vector<char> mark_half_spaces(const RadioScene& scene, const Eigen::Vector3d& p,
                                    std::vector<char>& inside) {
   std::vector<char> planes(inside.size(), 0);
@@ -32,7 +32,7 @@ std::vector<char> mark_half_spaces(const RadioScene& scene, const Eigen::Vector3
   return planes;
 }
 
-/// As a line in one direction has it, which may be wrong where that grazes an edge.
+/// shells_around() by a single line, which may be wrong where the line grazes an edge.
 std::vector<char> shells_along(const RadioScene& scene, const Eigen::Vector3d& p_W,
                                const Eigen::Vector3d& direction) {
   std::vector<char> inside(scene.shells().size(), 0);

@@ -14,10 +14,10 @@ using Eigen::Vector3d;
 
 /// An end must be further than this from an edge's line [m].
 constexpr double kLeastRadius = 1e-3;
-/// How far before an edge a way is looked at [m].
+/// Legs are traced up to this distance from the edge [m].
 constexpr double kBefore = 1e-3;
 
-/// An end as an edge sees it.
+/// Position of an end relative to an edge.
 struct Around {
   double along = 0.0;   ///< [m]
   double radius = 0.0;  ///< [m]
@@ -31,7 +31,7 @@ Around around(const DiffractingEdge& edge, const Vector3d& p_W) {
   return {along, away.norm(), away};
 }
 
-/// In front of one of the faces, as the edge is bent outwards.
+/// Whether the end is in front of one of the faces, which is enough as the edge is convex.
 bool is_outside(const DiffractingEdge& edge, const Around& end) {
   return edge.faces[0].normal_W.dot(end.away) > 0.0 || edge.faces[1].normal_W.dot(end.away) > 0.0;
 }
@@ -42,7 +42,7 @@ double angle_of(const DiffractingEdge& edge, const Around& end) {
   return std::clamp(angle < 0.0 ? angle + kTwoPi : angle, 0.0, edge.exterior_rad);
 }
 
-/// Just before the edge, of a plate on the end's side of it.
+/// Point just outside the edge; for a plate, on the side of the end.
 Vector3d lookout(const DiffractingEdge& edge, const Vector3d& p_W, const Around& end) {
   const Vector3d out =
       edge.faces[0].normal_W - edge.faces[0].into_W + edge.faces[1].normal_W - edge.faces[1].into_W;

@@ -15,16 +15,16 @@
 namespace tagfield {
 namespace {
 
-/// A tag must be further than this before a facet's plane to be seen by it [m].
+/// A tag must be further than this in front of a facet's plane to be reached by its reflection [m].
 constexpr double kLeastMirrorDistance = 1e-6;
-/// Paths by way of the same points are one path [m].
+/// Paths whose bounces are closer together than this are one path [m].
 constexpr double kSamePoint = 1e-6;
 
 bool are_ends(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT) {
   return is_place(p_WA) && is_place(p_WT) && p_WA != p_WT;
 }
 
-/// The paths found so far, in memory that is there from before.
+/// The paths found so far, in reused memory.
 class Collector {
  public:
   explicit Collector(std::vector<RadioPath>& paths) : paths_(paths) {}
@@ -32,7 +32,7 @@ class Collector {
   Collector(const Collector&) = delete;
   Collector& operator=(const Collector&) = delete;
 
-  /// A path to fill in, which counts once it is kept.
+  /// A path to fill in, which is discarded unless keep() follows.
   RadioPath& blank() {
     if (count_ == paths_.size()) paths_.emplace_back();
     RadioPath& path = paths_[count_];
@@ -49,7 +49,7 @@ class Collector {
   std::size_t count_ = 0;
 };
 
-/// Finds the bounces from the tag backwards. False if the way misses a facet.
+/// Finds the bounces from the tag backwards. False if the path misses a facet.
 bool find_bounces(const RadioScene& scene, const ImageSet& set, const Image& last,
                   const Eigen::Vector3d& p_WT, RadioPath& path) {
   path.bounce_count = last.order;
@@ -91,8 +91,8 @@ Leg leg_of(const RadioPath& path, int number, const Eigen::Vector3d& p_WA,
   return leg;
 }
 
-/// The path's mirrors as one number, which rises in the order in which paths are traced; none where
-/// facets are too many for that.
+/// The path's facets packed into one number, which increases in the order in which paths are
+/// traced; none if there are too many facets for that.
 std::optional<std::uint64_t> way_of(const RadioPath& path) {
   constexpr int kBits = 20;
   auto way = static_cast<std::uint64_t>(path.bounce_count);
@@ -105,7 +105,7 @@ std::optional<std::uint64_t> way_of(const RadioPath& path) {
   return way;
 }
 
-/// Goes through what stopped paths before as they are traced again, in the same order.
+/// Looks up what blocked the paths last time, while they are traced again in the same order.
 class StopSearch {
  public:
   explicit StopSearch(LastStops& last) : last_(last) { last_.next.clear(); }
@@ -113,14 +113,14 @@ class StopSearch {
   StopSearch(const StopSearch&) = delete;
   StopSearch& operator=(const StopSearch&) = delete;
 
-  /// What stopped the path; null where nothing did.
+  /// What blocked the path last time; null if nothing did.
   const LastStops::Stop* find(const RadioPath& path) {
     way_ = way_of(path);
     if (!way_) return nullptr;
     while (at_ < last_.stops.size() && last_.stops[at_].way < *way_) ++at_;
     return at_ < last_.stops.size() && last_.stops[at_].way == *way_ ? &last_.stops[at_] : nullptr;
   }
-  /// The path that was asked for last is stopped there.
+  /// Records what blocks the path that was last passed to find().
   void keep(std::uint32_t collision, std::uint32_t triangle, int leg) {
     if (!way_ || last_.next.size() >= kMostStops) return;
     last_.next.push_back({*way_, collision, triangle, leg});
@@ -132,7 +132,7 @@ class StopSearch {
   std::optional<std::uint64_t> way_;
 };
 
-/// Sets what the path goes through. False if it is not to be kept. `search` may be null.
+/// Sets the path's crossings. False if the path is to be discarded. `search` may be null.
 bool walk_all(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
               const TraceOptions& options, StopSearch* search, RadioPath& path) {
   if (!options.occlusion) return true;
@@ -160,8 +160,8 @@ bool walk_all(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen:
   return true;
 }
 
-bool is_same_way(const RadioPath& one, const RadioPath& other) {
-  // Two metres for each bounce, at most, come of its point's being elsewhere by one.
+bool is_same_path(const RadioPath& one, const RadioPath& other) {
+  // Moving a bounce by some distance changes the length by at most twice that.
   constexpr double kSameLength = 2.0 * kMostBounces * kSamePoint;
   if (!(std::abs(one.length_m - other.length_m) < kSameLength)) return false;
   for (std::size_t i = 0; i < static_cast<std::size_t>(one.bounce_count); ++i) {
@@ -170,7 +170,7 @@ bool is_same_way(const RadioPath& one, const RadioPath& other) {
   return true;
 }
 
-/// Of facets flush with each other the opaque one counts, or else that of the first solid.
+/// Of facets that are flush with each other, the opaque one counts, or else the first.
 bool is_better(const RadioScene& scene, const RadioPath& one, const RadioPath& other) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(one.bounce_count); ++i) {
     const Bounce& a = one.bounces[i];
@@ -181,11 +181,11 @@ bool is_better(const RadioScene& scene, const RadioPath& one, const RadioPath& o
   return false;
 }
 
-/// Keeps the blank, which is filled in, unless its way is known already.
+/// Keeps the filled-in blank() unless the same path is known already.
 void keep_once(const RadioScene& scene, RadioPath& path, Collector& paths) {
   for (std::size_t i = paths.size(); i-- > 0;) {
     if (paths[i].bounce_count != path.bounce_count) break;
-    if (!is_same_way(paths[i], path)) continue;
+    if (!is_same_path(paths[i], path)) continue;
     if (is_better(scene, path, paths[i])) std::swap(path, paths[i]);
     return;
   }

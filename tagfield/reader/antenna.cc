@@ -15,7 +15,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeastRate = 1e-9;  // An update in 32 years: stamps must not overflow.
+constexpr double kLeastRate = 1e-9;  // One update in 32 years: stamps must not overflow.
 constexpr double kMostRate = 1e6;
 
 std::uint64_t stamp_key(Time stamp) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A reader's antenna: the paper's, or a physical one.
+/// A reader's antenna: the paper's model, or a physical one.
 #pragma once
 
 #include <cstdint>
@@ -16,41 +16,42 @@
 
 namespace tagfield {
 
-struct RadioModel;  // of radio_model.h; radio_model_from() of settings/ makes one
+struct RadioModel;  // in radio_model.h; created by radio_model_from() of settings/
 
 /// The paper's antenna reads all tags within a range; the defaults are Table 1's mobile antenna
 /// with gain 1.
 struct PaperAntenna {
   PaperModel model;
   double range_m = 7.0;       ///< Nominal range r; greater than 0.
-  double range_sigma = 0.05;  ///< σr: relative spread of the range; 0 or more.
-  /// Least RSSI of a reply that is reported. None in the paper, whose noise makes RSSIs that no
-  /// reader hears.
+  double range_sigma = 0.05;  ///< σr: relative standard deviation of the range; 0 or more.
+  /// Minimum RSSI of a reported reply. Unset in the paper, whose noise produces RSSI values that no
+  /// reader could receive.
   std::optional<double> sensitivity_dbm{};
 };
 
-/// What an antenna is simulated by. Of what it is, field/ alone asks.
+/// How an antenna is simulated. Only field/ checks which alternative it is.
 using AntennaModel = std::variant<PaperAntenna, std::shared_ptr<const RadioModel>>;
 
 /// An antenna's parameters.
 struct AntennaParameters {
-  std::string reader = "reader";  ///< Name of the reader that the antenna belongs to.
+  std::string reader = "reader";  ///< Name of the antenna's reader.
   std::string name;               ///< Unique over all readers.
-  double rate_hz = 15.0;          ///< Updates a second; greater than 0.
+  double rate_hz = 15.0;          ///< Updates per second; greater than 0.
   AntennaModel model;
 };
 
-/// Throws Error naming the parameter that is out of its range or not finite. A physical model is
-/// checked where it is made.
+/// Throws Error naming the parameter that is out of range or not finite. A physical model is
+/// checked where it is created.
 void check(const AntennaParameters& antenna);
 
-/// Stamp of the antenna's update `number` (0, 1, …): number/rate, to the nanosecond.
+/// Timestamp of the antenna's update `number` (0, 1, …): number/rate, to the nanosecond.
 Time update_stamp(const AntennaParameters& antenna, std::int64_t number);
 
 /// Number of the first update at or after `time`.
 std::int64_t first_update_at(const AntennaParameters& antenna, Time time);
 
-/// The paper's parameters of an antenna that has them; throws std::bad_variant_access otherwise.
+/// The paper's parameters of an antenna with the paper's model; throws std::bad_variant_access
+/// otherwise.
 inline PaperAntenna& paper(AntennaParameters& antenna) {
   return std::get<PaperAntenna>(antenna.model);
 }
@@ -58,28 +59,28 @@ inline const PaperAntenna& paper(const AntennaParameters& antenna) {
   return std::get<PaperAntenna>(antenna.model);
 }
 
-/// The physical model of an antenna that has one; null for the paper's.
+/// The physical model of an antenna; null for the paper's model.
 inline const RadioModel* physical(const AntennaParameters& antenna) {
   const auto* const model = std::get_if<std::shared_ptr<const RadioModel>>(&antenna.model);
   return model == nullptr ? nullptr : model->get();
 }
 
-/// Whether both are physical antennas of two readers that can send at the same time: not where both
-/// share by time.
+/// Whether these are physical antennas of two readers that can transmit simultaneously, which is
+/// not the case if both take turns (AirSharing::kTime).
 bool may_send_at_once(const AntennaParameters& a, const AntennaParameters& b);
 
-// Of paper's antennas alone:
+// For the paper's antennas only:
 
-/// How far the antenna reads in its update at `stamp` [m]: r·|1 + n_r|, n_r ~ N(0, σr²), drawn once
-/// for each update (section III-A of the paper). The draw is a function of seed, antenna, stamp.
+/// The antenna's range in its update at `stamp` [m]: r·|1 + n_r|, n_r ~ N(0, σr²), drawn once per
+/// update (section III-A of the paper). The draw is a function of seed, antenna and stamp.
 double perturbed_range(const AntennaParameters& antenna, Time stamp, std::uint64_t seed);
 
-/// What the receiver sees of the tag whose ID has the stream_key() `tag_key`, at the other end of
+/// The received signal of the tag whose ID has the stream_key() `tag_key`, at the other end of
 /// `link`. The noise is a function of seed, antenna, tag and stamp alone.
 Signal read_signal(const AntennaParameters& antenna, std::uint64_t antenna_key,
                    std::uint64_t tag_key, const LinkGeometry& link, Time stamp, std::uint64_t seed);
 
-/// read_signal() of many tags with the keys `tag_keys`, `distances_m` away, into arrays of the same
+/// read_signal() for many tags with the keys `tag_keys` at `distances_m`, into arrays of the same
 /// length.
 void read_signals(const AntennaParameters& antenna, std::uint64_t antenna_key,
                   std::span<const std::uint64_t> tag_keys, std::span<const double> distances_m,

@@ -31,9 +31,9 @@ std::vector<ChannelPlan> make_plans() {
           {"etsi_low", {865.7e6, 866.3e6, 866.9e6, 867.5e6}, 4.0, 865e6, 868e6, 33.01, 200e3},
           // ERC/REC 70-03, annex 11: 400 kHz wide, 4 W ERP.
           {"etsi_high", {916.3e6, 917.5e6, 918.7e6}, 4.0, 915e6, 921e6, 36.02, 400e3},
-          // 47 CFR 15.247: 50 channels, 0.4 s in 20 s at most, 1 W into 6 dBi: 36 dBm EIRP.
+          // 47 CFR 15.247: 50 channels, at most 0.4 s in 20 s, 1 W into 6 dBi: 36 dBm EIRP.
           {"fcc", evenly(902.75e6, 0.5e6, 50), 0.4, 902e6, 928e6, 36.0 - kDipole_dbi, 500e3},
-          // MIIT 2007-205: 920.625 to 924.375 MHz in steps of 250 kHz, 2 W ERP, 2 s at most.
+          // MIIT 2007-205: 920.625 to 924.375 MHz in steps of 250 kHz, 2 W ERP, at most 2 s.
           {"china", evenly(920.625e6, 0.25e6, 16), 2.0, 920e6, 925e6, 33.01, 250e3}};
 }
 
@@ -47,7 +47,7 @@ void check_carrier(const ChannelPlan& plan, double carrier_hz) {
   }
 }
 
-/// Fisher and Yates's shuffle.
+/// Fisher-Yates shuffle.
 std::vector<std::size_t> hop_order(std::size_t count, std::uint64_t reader_key,
                                    std::uint64_t seed) {
   std::vector<std::size_t> order(count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// On which carrier a reader sends when. See docs/reader.md for the plans and their sources.
+/// Which carrier a reader uses at which time. See docs/reader.md for the plans and their sources.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@ namespace tagfield {
 /// The carriers that a reader may use.
 struct ChannelPlan {
   std::string name;
-  std::vector<double> carriers_hz;  ///< Rising.
-  double dwell_s = 0.2;             ///< On each; greater than 0.
-  double band_low_hz = 0.0;         ///< Edges of the band that the regulation allows,
-  double band_high_hz = 0.0;        ///< both 0 where none is known.
-  double most_erp_dbm = 0.0;        ///< Most radiated power over a dipole; 0 where none is known.
+  std::vector<double> carriers_hz;  ///< In ascending order.
+  double dwell_s = 0.2;             ///< Dwell time on each; greater than 0.
+  double band_low_hz = 0.0;         ///< Edges of the band allowed by the regulation,
+  double band_high_hz = 0.0;        ///< both 0 if unknown.
+  double most_erp_dbm = 0.0;        ///< Maximum radiated power relative to a dipole; 0 if unknown.
   double channel_hz = 200e3;        ///< Width of a channel.
 };
 
@@ -28,16 +28,16 @@ const std::vector<ChannelPlan>& known_plans();
 /// The known plan of this name. Throws Error with the nearest name if there is none.
 const ChannelPlan& known_plan(const std::string& name);
 
-/// One carrier for good.
+/// A single carrier that never changes.
 ChannelPlan fixed_plan(double frequency_hz);
 
-/// Throws Error naming the parameter that is out of its range, as a carrier outside the band.
+/// Throws Error naming the parameter that is out of range, such as a carrier outside the band.
 void check(const ChannelPlan& plan);
 
-/// Which channel of the plan the reader with the stream_key() `reader_key` is on at `time`: a
-/// random order, drawn once for each reader and seed, over and over. Readers with a `turn` of their
-/// own each that share a plan and a key are never on the same channel at once, up to as many as
-/// there are channels.
+/// The plan's channel that the reader with the stream_key() `reader_key` uses at `time`: a random
+/// order, drawn once for each reader and seed, repeated forever. Readers that share a plan and a
+/// key but have different `turn`s below the number of channels are never on the same channel
+/// simultaneously.
 std::size_t channel_at(const ChannelPlan& plan, Time time, std::uint64_t reader_key,
                        std::uint64_t seed, std::size_t turn = 0);
 

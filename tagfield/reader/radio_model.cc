@@ -83,7 +83,7 @@ double most_range_m(const RadioModel& model, const TagModel& tag) {
   const double lambda_m = wavelength(model.plan.carriers_hz.front());
   const double radiated_dbm =
       model.transmit_power_dbm - model.cable_loss_db + peak_dbi(model.antenna);
-  // Neighbours may focus waves on a tag: at most to twice the field, as it is taken here.
+  // Neighbouring tags may focus waves on a tag: assumed to at most double the field.
   constexpr double kFocused_db = 6.02;
   const double tag_dbi =
       peak_dbi(tag.antenna) - tag.detuning_db + (couples_tags(model) ? kFocused_db : 0.0);

@@ -24,29 +24,29 @@
 
 namespace tagfield {
 
-/// What is simulated. Each effect can be switched off by itself.
+/// The simulated effects. Each can be switched off independently.
 struct RadioEffects {
-  bool patterns = true;       ///< Gain over direction, of antennas and tags.
+  bool patterns = true;       ///< Directional gain of antennas and tags.
   bool polarization = true;   ///< Of both ends.
-  bool occlusion = true;      ///< By what stands between.
+  bool occlusion = true;      ///< By obstacles.
   bool reflections = true;    ///< From flat surfaces.
-  bool diffraction = true;    ///< Around edges, where it is asked for.
-  bool bodies = true;         ///< Things that move, where they have a material.
-  bool diffuse = true;        ///< Waves from everywhere, where a K factor is given.
-  bool noise = true;          ///< Of phase, RSSI and Doppler.
-  bool quantization = true;   ///< Steps of what is reported.
-  bool hopping = true;        ///< Changing carriers; else the first one for good.
-  bool phase_offsets = true;  ///< One of each channel and each port.
-  bool half_turns = true;     ///< π ambiguity, with Miller replies.
-  bool inventory = true;      ///< Gen2 slots, where an inventory is given.
-  bool interference = true;   ///< By other readers, where it is asked for.
-  bool coupling = true;       ///< Of tags near one another, where it is asked for.
+  bool diffraction = true;    ///< Around edges, if enabled.
+  bool bodies = true;         ///< Moving objects that have a material.
+  bool diffuse = true;        ///< Diffuse waves, if a K factor is given.
+  bool noise = true;          ///< In phase, RSSI and Doppler.
+  bool quantization = true;   ///< Of reported values.
+  bool hopping = true;        ///< Changing carriers; else always the first one.
+  bool phase_offsets = true;  ///< One per channel and per port.
+  bool half_turns = true;     ///< π ambiguity of the phase, with Miller replies.
+  bool inventory = true;      ///< Gen2 slots, if an inventory is given.
+  bool interference = true;   ///< By other readers, if enabled.
+  bool coupling = true;       ///< Of tags close to each other, if enabled.
 };
 
-/// An effect's name in scenarios and its switch.
+/// An effect's name in scenarios and its flag.
 struct EffectSwitch {
   const char* name;
-  const char* what;  ///< For people.
+  const char* what;  ///< For display.
   bool RadioEffects::*on;
 };
 constexpr std::array<EffectSwitch, 15> kEffectSwitches = {{
@@ -70,44 +70,45 @@ constexpr std::array<EffectSwitch, 15> kEffectSwitches = {{
 /// All off.
 RadioEffects no_effects();
 
-/// How a reader takes inventory over its antennas.
+/// How a reader inventories over its antennas.
 struct Gen2Reader {
   LinkSettings link;
   InventorySettings inventory;
-  double port_dwell_s = 0.2;  ///< Time at one antenna before the next one's turn.
+  double port_dwell_s = 0.2;  ///< Time on one antenna before switching to the next.
 };
 
-/// How readers that hear one another keep apart.
+/// How readers within range of each other avoid interference.
 enum class AirSharing {
-  kChannel,  ///< Each on a channel of its own.
-  kTime,     ///< By turns, a port's dwell each.
+  kChannel,  ///< Each on its own channel.
+  kTime,     ///< In turns, one port dwell time each.
 };
 
-/// All that is physical of one antenna. Its frame A: boresight along x, z up.
+/// All physical parameters of one antenna. Its frame A: boresight along x, z up.
 struct RadioModel {
   RadioEffects effects;
-  int reflection_order = 0;   ///< Most bounces of a path: 0 to 3.
-  bool diffraction = false;   ///< Waves bend around edges.
-  bool interference = false;  ///< What other readers send disturbs its links.
-  bool tag_coupling = false;  ///< Tags near one another change what each takes in.
-  SpectrumMask spectrum_mask = SpectrumMask::kDense;  ///< That what it sends keeps to.
-  /// Power of all single paths over that of diffuse waves (Rice's K) [dB]; none for no such waves.
+  int reflection_order = 0;   ///< Maximum number of reflections of a path: 0 to 3.
+  bool diffraction = false;   ///< Diffraction around edges.
+  bool interference = false;  ///< Signals of other readers disturb its links.
+  bool tag_coupling = false;  ///< Tags close to each other change the power that each receives.
+  SpectrumMask spectrum_mask = SpectrumMask::kDense;  ///< Limits its transmit spectrum.
+  /// Power of all specular paths over that of diffuse waves (Rician K factor) [dB]; unset for no
+  /// diffuse waves.
   std::optional<double> diffuse_k_db;
   AntennaPattern antenna;
-  std::optional<RigidTransform> X_AR;  ///< A receiving antenna of its own, with the same pattern.
+  std::optional<RigidTransform> X_AR;  ///< Separate receiving antenna, same pattern.
   double transmit_power_dbm = 30.0;    ///< At the reader's port.
-  double cable_loss_db = 0.0;          ///< One way; 0 or more.
+  double cable_loss_db = 0.0;          ///< Per direction; 0 or more.
   ReaderHardware hardware;
   ChannelPlan plan;
-  double phase_offset_rad = 0.0;  ///< φ0, on top of what channels and ports add.
+  double phase_offset_rad = 0.0;  ///< φ0, added to the offsets of channels and ports.
   std::optional<Gen2Reader> gen2;
   AirSharing sharing = AirSharing::kChannel;
-  /// What it was made of, for whoever writes it down: `model`, and keys of radio_settings.h in the
-  /// order in which they were applied.
+  /// The settings it was created from, for writing them down: `model`, and keys of radio_settings.h
+  /// in the order in which they were applied.
   std::vector<RawParameter> settings{};
 };
 
-/// Whether other readers' signals disturb it; whether tags' coupling counts.
+/// Whether signals of other readers disturb it; whether the coupling of tags is simulated.
 inline bool is_disturbed(const RadioModel& model) {
   return model.interference && model.effects.interference;
 }
@@ -115,33 +116,34 @@ inline bool couples_tags(const RadioModel& model) {
   return model.tag_coupling && model.effects.coupling;
 }
 
-/// What it sends, as its mask bounds it: channels of 2.5/Tari, or of the plan's width.
+/// Its transmit spectrum, bounded by the mask: channels of 2.5/Tari, or of the plan's width.
 TransmitSpectrum transmit_spectrum_of(const RadioModel& model);
-/// Of its tags' replies, without an inventory as well.
+/// The link settings of its tags' replies, even without an inventory.
 LinkSettings reply_link_of(const RadioModel& model);
 
-/// Throws Error naming the parameter that is out of its range; what is odd is warned of: more
+/// Throws Error naming the parameter that is out of range; warns of suspicious values: more
 /// radiated power than the plan allows, a gain above its lobe's limit.
 void check(const RadioModel& model, Diagnostics& diagnostics);
 
 /// A kind of tag.
 struct TagModel {
   std::string name;
-  AntennaPattern antenna;          ///< Frame T: face along x, z up.
-  double sensitivity_dbm = -18.0;  ///< Least power at the chip that makes it answer.
-  double modulation_db = -5.0;     ///< Backscattered over absorbed power; 0 or less.
-  double detuning_db = 0.0;        ///< Loss by what the tag is mounted on, each way; 0 or more.
-  std::vector<RawParameter> settings{};  ///< What it was made of, as of RadioModel.
+  AntennaPattern antenna;                ///< Frame T: face along x, z up.
+  double sensitivity_dbm = -18.0;        ///< Minimum power at the chip for it to respond.
+  double modulation_db = -5.0;           ///< Backscattered over absorbed power; 0 or less.
+  double detuning_db = 0.0;              ///< Mounting loss each way; 0 or more.
+  std::vector<RawParameter> settings{};  ///< The settings it was created from, as in RadioModel.
 };
 
-/// Throws Error naming the parameter that is out of its range.
+/// Throws Error naming the parameter that is out of range.
 void check(const TagModel& tag, Diagnostics& diagnostics);
 
-/// A half-wave dipole along z with a chip of −18 dBm.
+/// A half-wave dipole along z with a chip sensitivity of −18 dBm.
 std::shared_ptr<const TagModel> default_tag_model();
 
-/// Distance beyond which no tag of gain and sensitivity like `tag`'s can be read, all paths adding
-/// up [m]: the free-space range at the greatest gains and with fields of twice the direct one's.
+/// Upper bound on the distance at which tags with the gain and sensitivity of `tag` can be read
+/// [m]: the free-space range at peak gains, with all paths adding up to twice the direct path's
+/// field.
 double most_range_m(const RadioModel& model, const TagModel& tag);
 
 }  // namespace tagfield

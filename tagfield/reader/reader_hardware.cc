@@ -12,12 +12,12 @@ namespace {
 
 /// kT at 290 K [dBm/Hz].
 constexpr double kThermal_dbm_hz = -173.98;
-/// Phase noise of a reply that drowns: any phase.
+/// Phase noise of a reply far below the noise: any phase.
 constexpr double kMostSigma = 10.0;
 /// Weaker than any report.
 constexpr double kLeastRssi = -200.0;
 
-/// Of the error of one bit: ½ erfc √(SNR/2).
+/// The bit error rate: ½ erfc √(SNR/2).
 double wrong_bits(double snr) { return 0.5 * std::erfc(std::sqrt(0.5 * snr)); }
 
 double all_right(double wrong, int bits) { return std::exp(bits * std::log1p(-wrong)); }
@@ -33,7 +33,7 @@ void add_noise(const ReaderHardware& hardware, const Reply& reply, RandomStream&
   measured.phase_rad += sigma * of_phase;
   const double amplitude = std::abs(1.0 + std::min(sigma, 1.0) * of_amplitude);
   measured.rssi_dbm += amplitude_to_db(std::max(amplitude, 1e-6));
-  // Doppler is how the phase turns from the reply's first half to its second.
+  // Doppler is the phase difference between the first and the second half of the reply.
   const double turn = 2.0 * sigma / (kPi * hardware.reply_s);
   measured.doppler_hz += turn * standard_normal(noise);
 }

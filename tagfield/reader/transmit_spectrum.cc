@@ -10,12 +10,13 @@
 namespace tagfield {
 namespace {
 
-/// The last one goes on for ever.
+/// The last value holds for all channels from there on.
 constexpr int kChannels = 5;
 constexpr std::array<double, kChannels> kMultiple_db = {0.0, -20.0, -50.0, -60.0, -65.0};
 constexpr std::array<double, kChannels> kDense_db = {0.0, -30.0, -60.0, -65.0, -65.0};
 
-/// ∫ from 0 to `f_hz` of the density, over the power in the own channel; odd in `f_hz`.
+/// ∫ from 0 to `f_hz` of the density, relative to the power in the reader's own channel; odd in
+/// `f_hz`.
 double power_up_to(const TransmitSpectrum& spectrum, double f_hz) {
   const double channels = std::abs(f_hz) / spectrum.channel_hz;
   double sum = 0.0;

@@ -65,7 +65,8 @@ std::string span_of(const Scale& scale) {
                      compact(scale.to), scale.logarithmic ? "log" : "lin");
 }
 
-/// data-x, data-y: "low high from to lin|log", places in the drawing; data-x-name … the titles.
+/// data-x, data-y: "low high from to lin|log", coordinates in the drawing; data-x-name … the
+/// titles.
 void describe_axes(Svg& svg, const Axes& axes, const std::string& x_title,
                    const std::string& y_title) {
   begin_group(svg,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Axes of a figure: from data to places in the drawing, with grid, tick labels and titles.
+/// Axes of a figure: the mapping from data to drawing coordinates, with grid, tick labels and
+/// titles.
 #pragma once
 
 #include <string>
@@ -10,19 +11,19 @@
 
 namespace tagfield {
 
-/// One axis: data from `low` to `high` lie between `from` and `to` in the drawing.
+/// One axis: data from `low` to `high` are mapped to `from` … `to` in the drawing.
 struct Scale {
   double low = 0.0;
   double high = 1.0;
   double from = 0.0;
   double to = 1.0;
   std::vector<double> ticks;
-  bool logarithmic = false;  ///< Then 0 < low; what is below is taken as `low`.
+  bool logarithmic = false;  ///< If so, 0 < low; smaller values are clamped to `low`.
 };
 
 struct Axes {
   Scale x;
-  Scale y;  ///< `from` is the bottom, so it is the greater.
+  Scale y;  ///< `from` is the bottom, hence the greater value.
 };
 
 double place_on(const Scale& scale, double value);
@@ -36,12 +37,13 @@ Scale tight_scale(double low, double high, int count);
 Scale logarithmic_scale(double low, double high);
 
 /// Draws grid, tick labels, and titles (with units): x below the right end, y above the left. An
-/// empty group with the class "axes" says what they span, for a page's script to read values off.
+/// empty group with the class "axes" states their ranges, from which a page's script computes
+/// values.
 void draw_axes(Svg& svg, const Axes& axes, const std::string& x_title, const std::string& y_title);
-/// Only the vertical lines of the grid, with labels and title: for rows with names.
+/// Draws only the vertical grid lines, with labels and title, for figures with named rows.
 void draw_x_axis(Svg& svg, const Axes& axes, const std::string& title);
 
-/// Height of each of `rows` rows with names; few rows are higher, so that the figure is no strip.
+/// Height of each of `rows` named rows; a few rows are higher, so that the figure is not too flat.
 double row_height(std::size_t rows);
 
 /// An entry of a legend.
@@ -52,11 +54,12 @@ struct LegendEntry {
   std::string text;
 };
 
-/// Draws the entries from the top left on, in rows that fit the width; returns the height used.
-/// Each is a group with the class "key", and with the series' own class as data-key.
+/// Draws the entries from the top left, wrapped to the width; returns the height used. Each is a
+/// group with the class "key", and with the series' own class as data-key.
 double draw_legend(Svg& svg, const std::vector<LegendEntry>& entries);
 
-/// A horizontal bar of the colours from `low` to `high` [dBm], its top at `y`. Needs 44 of height.
+/// Draws a horizontal colour bar from `low` to `high` [dBm], with its top at `y`. Needs a height of
+/// 44.
 void draw_color_bar(Svg& svg, double y, double low, double high);
 
 }  // namespace tagfield

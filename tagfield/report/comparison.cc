@@ -19,9 +19,9 @@ namespace {
 
 using ComparisonJson = nlohmann::ordered_json;
 
-constexpr double kSamePlace_m = 0.001;
+constexpr double kSamePosition_m = 0.001;
 
-/// Places of tags at rest that a run knows.
+/// Positions of stationary tags known to a run.
 std::map<std::string, Eigen::Vector3d> truths_of(const Summary& summary) {
   std::map<std::string, Eigen::Vector3d> truths;
   for (const TagOutcome& outcome : summary.tags) {
@@ -30,7 +30,8 @@ std::map<std::string, Eigen::Vector3d> truths_of(const Summary& summary) {
   return truths;
 }
 
-/// With places that only the other run knows, as 'localize' of a run's reads knows none; how many.
+/// Adds true positions that only the other run knows, as 'localize' of a run's reads knows none;
+/// returns their number.
 std::size_t take_truths(Summary& summary, const std::map<std::string, Eigen::Vector3d>& others) {
   std::size_t taken = 0;
   for (TagOutcome& outcome : summary.tags) {
@@ -92,7 +93,7 @@ struct NaturalOrder {
   bool operator()(const std::string& a, const std::string& b) const { return natural_less(a, b); }
 };
 
-/// Tags of both runs, and warnings of those that can't be compared.
+/// Tags of both runs, and warnings about those that can't be compared.
 std::vector<ComparedTag> tags_of(const std::array<const Summary*, 2>& summaries,
                                  std::vector<std::string>& warnings) {
   std::map<std::string, ComparedTag, NaturalOrder> tags;
@@ -105,7 +106,7 @@ std::vector<ComparedTag> tags_of(const std::array<const Summary*, 2>& summaries,
       tag.runs[run] = outcome_of(row);
       const auto& truth = row.outcomes.front()->truth_m;
       if (!truth) continue;
-      if (tag.truth_m && (*tag.truth_m - *truth).norm() > kSamePlace_m) ++elsewhere;
+      if (tag.truth_m && (*tag.truth_m - *truth).norm() > kSamePosition_m) ++elsewhere;
       if (!tag.truth_m) tag.truth_m = truth;
     }
   }
@@ -196,7 +197,7 @@ RunComparison compared(Summary first, const std::string& first_name, Summary sec
   comparison.runs = {whole_of(first, first_name), whole_of(second, second_name)};
   comparison.tags = tags_of({&first, &second}, comparison.warnings);
   comparison.error = difference_of(comparison.tags);
-  // Recordings have none.
+  // Recordings have no seeds.
   if (!first.seeds.empty() && !second.seeds.empty() && first.seeds != second.seeds) {
     comparison.warnings.push_back(
         "the runs have different seeds: a part of the difference is chance");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Two runs beside each other: what each read and located, tag by tag.
+/// Two runs side by side: what each read and located, tag by tag.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,23 +14,23 @@
 
 namespace tagfield {
 
-/// What one of the runs made of a tag, over all its seeds.
+/// The outcome of a tag in one of the runs, over all its seeds.
 struct ComparedOutcome {
   std::size_t reads = 0;
-  std::string verdict;            ///< In two or three words; "not there" of a tag of the other run.
-  std::optional<double> error_m;  ///< Mean over the seeds in which there is one.
+  std::string verdict;            ///< In two or three words; "not there" if only in the other run.
+  std::optional<double> error_m;  ///< Mean over the seeds that have one.
   std::optional<Eigen::Vector3d> place_m;  ///< The estimate of the first seed.
 };
 
 struct ComparedTag {
   std::string tag;
   std::array<ComparedOutcome, 2> runs;
-  std::optional<Eigen::Vector3d> truth_m;  ///< Of the first run that knows it.
+  std::optional<Eigen::Vector3d> truth_m;  ///< From the first run that knows it.
 };
 
 /// One of the runs as a whole, over all its seeds.
 struct ComparedRun {
-  std::string name;  ///< As it was asked for.
+  std::string name;  ///< As requested.
   std::string scenario;
   std::string method;
   std::string pose;  ///< Summary::pose.
@@ -43,26 +43,26 @@ struct ComparedRun {
   std::optional<ErrorStatistics> error_m;
 };
 
-/// Errors of the second run less those of the first, over the tags that have one in both.
+/// Errors of the second run minus those of the first, over the tags that have one in both.
 struct ErrorDifference {
   std::size_t tags = 0;
   std::size_t smaller = 0;  ///< Tags with the smaller error in the second run.
   std::size_t larger = 0;
   double mean_m = 0.0;
-  /// In which the mean lies with 95 % confidence, by Student's t, as if tags were independent of
-  /// each other; none of a single tag.
+  /// 95 % confidence interval of the mean by Student's t, assuming independent tags; none for a
+  /// single tag.
   std::optional<std::array<double, 2>> interval_m;
 };
 
 struct RunComparison {
   std::array<ComparedRun, 2> runs;
-  std::vector<ComparedTag> tags;  ///< Of both, in natural order.
+  std::vector<ComparedTag> tags;  ///< Of both runs, in natural order.
   std::optional<ErrorDifference> error;
   std::vector<std::string> warnings;
 };
 
-/// A tag's place that only one of the runs knows judges the other one too, with a warning. Throws
-/// Error where the runs have no tag in common.
+/// Compares two runs. A tag's true position that only one of them knows is used for both, with a
+/// warning. Throws Error if the runs have no tag in common.
 RunComparison compared(Summary first, const std::string& first_name, Summary second,
                        const std::string& second_name);
 
@@ -72,7 +72,7 @@ RunComparison compared(Summary first, const std::string& first_name, Summary sec
 std::string comparison_to_json(const RunComparison& comparison);
 
 /// `tag,first_reads,second_reads,first_verdict,second_verdict,first_error_m,second_error_m,
-/// difference_m`, a row a tag.
+/// difference_m`, one row per tag.
 std::string comparison_to_csv(const RunComparison& comparison);
 
 }  // namespace tagfield

@@ -42,7 +42,7 @@ std::string told(const RunComparison& comparison, const ErrorPair& pair, std::si
                      clean_text(comparison.runs[run].name));
 }
 
-/// A row a tag: both errors, and a line between them.
+/// Draws one row per tag: both errors, and a line between them.
 void draw_pairs(Figure& figure, const RunComparison& comparison,
                 const std::vector<ErrorPair>& pairs) {
   double most = 0.0;
@@ -72,7 +72,7 @@ void draw_pairs(Figure& figure, const RunComparison& comparison,
   }
 }
 
-/// With many tags a dot each: along x the error in the first run, along y in the second.
+/// For many tags, draws one dot each: the error in the first run along x, in the second along y.
 void draw_cloud(Figure& figure, const RunComparison& comparison,
                 const std::vector<ErrorPair>& pairs) {
   double least = 1e9;

@@ -39,7 +39,7 @@ std::string compared_number(const std::string& name, const std::string& value, b
                      escaped(name), escaped(value));
 }
 
-/// The big numbers: errors where both runs have some, else tags read.
+/// The headline numbers: errors if both runs have some, else tags read.
 std::string compared_numbers(const RunComparison& comparison) {
   std::string html = "<dl class=\"numbers\">\n";
   const bool has_errors = comparison.runs[0].error_m && comparison.runs[1].error_m;
@@ -83,7 +83,7 @@ std::string seeds_of(const ComparedRun& run) {
   return fmt::format("{} from {}", run.seeds.size(), run.seeds.front());
 }
 
-/// Of settings: whether they differ.
+/// Whether two settings differ.
 std::string same_or_not(const std::string& first, const std::string& second) {
   return first == second ? "same" : "differs";
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Two runs beside each other, on a page.
+/// The page that compares two runs.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@
 
 namespace tagfield {
 
-/// What came of it in a sentence or two, plain text.
+/// The result in a sentence or two, plain text.
 std::string comparison_sentence(const RunComparison& comparison);
 
-/// Each tag's error in both runs; where its estimates lie, over `geometry` from above.
+/// Each tag's error in both runs; and its estimates over `geometry` from above.
 std::vector<Figure> comparison_figures(const RunComparison& comparison,
                                        const std::vector<Silhouette>& geometry);
 

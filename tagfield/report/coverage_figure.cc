@@ -23,7 +23,7 @@ Extent extent_of(const CoverageGrid& grid) {
   return {grid.corner_m, Eigen::Vector2d(grid.corner_m + grid.step_m * size)};
 }
 
-/// The layer with a colour's number in each cell.
+/// The layer as a grid of colour indices.
 OccupancyGrid numbered(const CoverageGrid& grid, const CoverageLayer& layer,
                        const std::function<std::int8_t(const CoverageCell&)>& number) {
   OccupancyGrid cells;
@@ -36,7 +36,7 @@ OccupancyGrid numbered(const CoverageGrid& grid, const CoverageLayer& layer,
   return cells;
 }
 
-/// `words` of each colour.
+/// Draws the cells; `words` are the texts of the colours.
 void draw_cells(Svg& svg, const MapView& map, const OccupancyGrid& cells,
                 const std::vector<std::string>& colors, const std::vector<std::string>& words) {
   const Place corner = place_in(map.axes, cells.origin.x(), cells.origin.y());
@@ -72,7 +72,7 @@ void draw_antennas(Svg& svg, MapView& map, const Coverage& coverage) {
   }
 }
 
-/// The ground of all maps, to be drawn on.
+/// The background of all maps.
 MapView begin_map(Figure& figure, const Coverage& coverage, double top) {
   MapView map = make_map(figure.name, extent_of(coverage.grid), {}, top);
   figure.svg.height = map_bottom(map);
@@ -159,7 +159,7 @@ void draw_quantity(Figure& figure, const Coverage& coverage, const CoverageLayer
   draw_antennas(figure.svg, map, coverage);
 }
 
-/// Antennas beyond the colours share them.
+/// With more antennas than colours, they share colours.
 constexpr int kMostKinds = 100;
 
 void draw_best(Figure& figure, const Coverage& coverage, const CoverageLayer& layer,
@@ -221,7 +221,7 @@ void draw_tag_names(Svg& svg, MapView& map, const Coverage& coverage) {
   }
 }
 
-constexpr std::size_t kMostDataCells = 5000;  ///< That a page carries as text.
+constexpr std::size_t kMostDataCells = 5000;  ///< Maximum embedded in a page as text.
 
 std::string data_of_cells(const Coverage& coverage, const CoverageLayer& layer) {
   const CoverageGrid& grid = coverage.grid;

@@ -14,7 +14,7 @@ namespace tagfield {
 
 enum class CoverageQuantity { kProbability, kMargin, kPower, kAntenna };
 
-/// One quantity of a layer over the world from above, antennas drawn.
+/// One quantity of a layer over the world from above, with the antennas.
 Figure coverage_figure(const Coverage& coverage, const CoverageLayer& layer,
                        CoverageQuantity quantity, const std::vector<Silhouette>& top_view);
 

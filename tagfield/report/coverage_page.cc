@@ -89,7 +89,7 @@ std::string row(const Coverage& coverage, const TagCoverage& tag) {
                      tag.nearest_m);
 }
 
-/// What needs a person's eye comes first.
+/// The tags that need attention come first.
 std::vector<const TagCoverage*> sorted(const Coverage& coverage) {
   constexpr int kOrder[] = {0, 4, 3, 2, 1};  // By TagVerdict.
   std::vector<const TagCoverage*> tags;
@@ -139,7 +139,7 @@ std::vector<CoverageQuantity> quantities_of(const Coverage& coverage) {
   return all;
 }
 
-/// Those from `first` up to before `last`.
+/// The figures in [first, last).
 std::string figures_html(const std::vector<Figure>& figures, std::size_t first, std::size_t last) {
   std::string html = "<div class=\"figures\">\n";
   for (std::size_t i = first; i < std::min(last, figures.size()); ++i) {

@@ -13,11 +13,11 @@
 namespace tagfield {
 
 /// All maps: for each height read probability, margin, power and, with several antennas, the best
-/// one; the scenario's tags last. None of the grid where it is empty.
+/// one; the scenario's tags last. No maps of the grid if it is empty.
 std::vector<Figure> coverage_figures(const Coverage& coverage,
                                      const std::vector<Silhouette>& top_view);
 
-/// The page, self-contained as report.html.
+/// The page, self-contained like report.html.
 std::string coverage_page(const Coverage& coverage, const std::vector<Figure>& figures);
 
 }  // namespace tagfield

@@ -11,7 +11,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeast = 0.01;      ///< [mm] What is smaller is drawn here.
+constexpr double kLeast = 0.01;      ///< [mm] Smaller values are drawn here.
 constexpr double kFarOff = 300.0;    ///< [mm]
 constexpr std::size_t kSteps = 400;  ///< Of the curve.
 
@@ -25,7 +25,7 @@ Axes distribution_axes(double low_mm, double high_mm) {
   return axes;
 }
 
-/// Share of errors up to each, as steps.
+/// Cumulative share of errors as a step function.
 std::vector<Place> curve_of(const Axes& axes, const std::vector<double>& errors_m) {
   std::vector<Place> places = {{place_on(axes.x, 1e3 * errors_m.front()), axes.y.from}};
   const std::size_t step = thinning(errors_m.size(), kSteps);
@@ -41,7 +41,7 @@ std::vector<Place> curve_of(const Axes& axes, const std::vector<double>& errors_
   return places;
 }
 
-/// A line down at an error, with its words beside it where the curve can't be: to the right.
+/// A vertical line at an error, with its text to the right, where the curve can't be.
 void draw_mark(Svg& svg, const Axes& axes, double error_mm, const std::string& text, double y) {
   const double x = place_on(axes.x, error_mm);
   const bool fits = x + 6.0 + text_width(text) < kDrawingWidth;

@@ -16,20 +16,20 @@ constexpr double kTagNameWidth = 122.0;
 constexpr double kErrorTop = 30.0;
 constexpr double kBottom = 48.0;
 constexpr double kValueRoom = 46.0;
-constexpr double kGreatSpread = 12.0;   ///< Greatest error over the median.
-constexpr double kLeastError = 0.01;    ///< [mm] What is smaller is drawn here.
+constexpr double kGreatSpread = 12.0;   ///< Ratio of the largest error to the median.
+constexpr double kLeastError = 0.01;    ///< [mm] Smaller values are drawn here.
 constexpr std::size_t kMostSpots = 60;  ///< Of one row.
 
 std::string millimetres(double error_m) {
   return fmt::format("{:.{}f}", error_m * 1e3, error_m < 0.00995 ? 1 : 0);
 }
 
-/// Whether a few errors so far above the others would press those flat.
+/// Whether a few errors are so large that they would squeeze the others on a linear axis.
 bool is_spread(const ErrorStatistics& errors) {
   return errors.max > kGreatSpread * errors.median && errors.median > 0.0;
 }
 
-/// Logarithmic for several seeds with far outliers; bars need a zero.
+/// Logarithmic for several seeds with far outliers; linear for bars, which need a zero.
 Axes row_axes(const ErrorStatistics& errors, std::size_t rows, bool several) {
   Axes axes;
   axes.x = several && is_spread(errors)
@@ -63,7 +63,7 @@ void draw_bar(Svg& svg, const Axes& axes, const TagRow& row, double y) {
   add_rimmed_text(svg, {end + 7.0, y + 5.0}, millimetres(error), Anchor::kStart);
 }
 
-/// Whiskers from the least to the greatest, box over the middle half, line at the median.
+/// Whiskers from minimum to maximum, box over the middle half, line at the median.
 void draw_box(Svg& svg, const Axes& axes, const TagRow& row, double y) {
   const std::vector<double>& errors = row.errors_m;
   const auto at = [&](double fraction) {
@@ -129,7 +129,7 @@ void draw_rows(Figure& figure, const std::vector<TagRow>& rows, const ErrorStati
   }
 }
 
-/// Bounds of the histogram's classes: each 10^(1/8) times the one before.
+/// Bounds of the histogram's classes, each 10^(1/8) times the previous one.
 std::vector<double> class_bounds(double low, double high) {
   constexpr double kPerDecade = 8.0;
   std::vector<double> bounds;

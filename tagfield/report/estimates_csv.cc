@@ -19,7 +19,7 @@ std::string covariance_fields(const Candidate& candidate) {
   return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}", c(0, 0), c(0, 1), c(1, 1), c(2, 2));
 }
 
-/// The table's columns by name, of which few must be there.
+/// The table's columns by name, few of which are required.
 class EstimateRows {
  public:
   EstimateRows(const CsvTable& table, const HeightOfTag& height) : table_(table), height_(height) {
@@ -82,7 +82,7 @@ class EstimateRows {
   const HeightOfTag& height_;
 };
 
-/// One more row of a tag's.
+/// Adds a row to a tag's estimate.
 void add_row(const EstimateRows& rows, const CsvRow& row, TagEstimate& estimate) {
   if (rows.has(row, "reads")) {
     estimate.reads = static_cast<std::size_t>(std::max(rows.number(row, "reads"), 0.0));

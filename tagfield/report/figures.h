@@ -11,33 +11,33 @@
 
 namespace tagfield {
 
-/// A drawing with its words, or the word why there is none.
+/// A drawing with its texts, or the reason why there is none.
 struct Figure {
   std::string name;     ///< Of the file, without ".svg"; also its anchor on the page.
-  std::string number;   ///< Of the paper's figure: "Fig. 9"; "" where it is none of the paper's.
+  std::string number;   ///< Of the paper's figure: "Fig. 9"; "" if it is none of the paper's.
   std::string title;    ///< A few words.
-  std::string caption;  ///< What is seen, plain text.
+  std::string caption;  ///< What it shows, plain text.
   Svg svg;
-  std::string missing;  ///< Why it can't be drawn; "" where it is.
-  std::string data{};   ///< What is drawn, as CSV with a head; "" where it is not offered.
+  std::string missing;  ///< Why it can't be drawn; "" if it is.
+  std::string data{};   ///< The data as CSV with a header; "" if not available.
 };
 
-inline constexpr std::size_t kMostRows = 40;     ///< Tags shown one by one, with their names.
+inline constexpr std::size_t kMostRows = 40;     ///< Tags shown individually, with their names.
 inline constexpr std::size_t kMostMarks = 1500;  ///< Points in one figure.
 
 /// Fig. 9: path, true tags and estimates over the world from above.
 Figure map_figure(const RunFiles& run);
 
-/// Fig. 6: the map that the robot drove by, with its way while it made it.
+/// Fig. 6: the map that the robot navigated with, and its path while mapping.
 Figure robot_map_figure(const RunFiles& run);
 
-/// How far off the moving antennas were believed, over time: horizontally and in heading.
+/// The error of the moving antennas' believed poses over time: horizontally and in heading.
 Figure pose_error_figure(const RunFiles& run);
 
 /// Fig. 10: the error of each tag: bars for one seed, boxes for several, a histogram for many tags.
 Figure error_figure(const RunFiles& run);
 
-/// The share of errors up to each size, of all tags and seeds.
+/// The cumulative distribution of the errors of all tags and seeds.
 Figure distribution_figure(const RunFiles& run);
 
 /// Fig. 11: height of the moving antenna over time.
@@ -46,11 +46,11 @@ Figure height_figure(const RunFiles& run);
 /// Fig. 12: unwrapped phase distance of the tag with the most reads, and the true change.
 Figure phase_figure(const RunFiles& run);
 
-/// Whether that tag's phases are of several carriers, between which eq. (9) can't follow them.
+/// Whether that tag's phases are of several carriers, so that eq. (9) can't unwrap them.
 bool hops(const RunFiles& run);
 
-/// In place of Fig. 12 where the reader hops: how well the phases agree with each place about the
-/// tag, or, where that can't be drawn, the phases by carrier.
+/// Replaces Fig. 12 if the reader hops: how well the phases agree with each position around the
+/// tag, or, if that can't be drawn, the phases by carrier.
 Figure hopping_figure(const RunFiles& run);
 
 /// Fig. 13: RSSI of that tag along the path of the moving antenna.
@@ -62,11 +62,11 @@ Figure fixed_rssi_figure(const RunFiles& run);
 /// With Fig. 14: every RSSI of each tag at the fixed antenna.
 Figure fixed_strip_figure(const RunFiles& run);
 
-/// All of them in the order of the page; those that make no sense for this run (such as a height
-/// that never changes) are left out, those that could be asked for say what is missing.
+/// All figures in the order of the page. Those that make no sense for this run (such as a height
+/// that never changes) are left out; those that a reader might expect state what is missing.
 std::vector<Figure> all_figures(const RunFiles& run);
 
-/// Every `step`-th, so that `count` things become at most `most` ≥ 1.
+/// The step at which to take every `step`-th of `count` items to get at most `most` ≥ 1.
 inline std::size_t thinning(std::size_t count, std::size_t most) {
   return count == 0 ? 1 : (count + most - 1) / most;
 }

@@ -15,7 +15,7 @@ namespace {
 constexpr double kStripNameWidth = 122.0;
 constexpr double kStripTop = 12.0;
 
-/// The strongest, in the order they were in.
+/// The strongest ones, in their original order.
 std::vector<TagStrength> strongest(std::vector<TagStrength> strengths, std::size_t most) {
   if (strengths.size() <= most) return strengths;
   std::stable_sort(
@@ -28,7 +28,7 @@ std::vector<TagStrength> strongest(std::vector<TagStrength> strengths, std::size
   return strengths;
 }
 
-/// Equal values of a tag are one spot, the larger the more there are.
+/// Equal values of a tag are drawn as one spot, which is larger the more there are.
 void draw_strip(Svg& svg, const Axes& axes, const TagStrength& strength, double y,
                 const std::pair<double, double>& colors, std::size_t most) {
   std::map<double, std::size_t> counts;

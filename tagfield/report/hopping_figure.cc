@@ -18,11 +18,11 @@
 namespace tagfield {
 namespace {
 
-constexpr int kHologramCells = 64;  ///< To a side.
+constexpr int kHologramCells = 64;  ///< Per side.
 constexpr double kHologramCell_m = 0.02;
-constexpr double kHologramTop = 46.0;  ///< Of the drawing, below the colours' bar.
+constexpr double kHologramTop = 46.0;  ///< Of the drawing, below the colour bar.
 
-/// The antenna whose reads are shown, and of which tag.
+/// The antenna and the tag whose reads are shown.
 struct Shown {
   const AntennaTrack* track = nullptr;
   std::string tag;
@@ -45,10 +45,10 @@ std::size_t count_carriers(const Shown& shown) {
   return carriers_hz.size();
 }
 
-/// Reads of the antenna joined with where it was believed to be.
+/// Reads of the antenna joined with its believed poses.
 struct HoppingReads {
   std::vector<PhaseSample> samples;  ///< Of the tag.
-  bool half_turns = false;           ///< Then phases and carriers are doubled.
+  bool half_turns = false;  ///< If the phases have a π ambiguity, phases and carriers are doubled.
 };
 
 HoppingReads hopping_reads(const Shown& shown) {
@@ -64,8 +64,8 @@ HoppingReads hopping_reads(const Shown& shown) {
   return joined;
 }
 
-/// Relative to a place in the plane that is searched; each carrier by itself, as the phases'
-/// offsets differ between them.
+/// Reads relative to `middle_W` in the search plane; one group per carrier, since phase offsets
+/// differ between carriers.
 std::vector<std::vector<SearchRead>> by_carrier(const std::vector<PhaseSample>& samples,
                                                 const Eigen::Vector3d& middle_W) {
   std::map<long long, std::vector<SearchRead>> carriers;

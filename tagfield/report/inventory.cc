@@ -6,7 +6,7 @@
 namespace tagfield {
 namespace {
 
-/// Adds `of` of the run's row to that of the mean, which has the same rows.
+/// Adds the weighted `fields` of the run's rows to those of the mean, which has the same rows.
 template <class Row, class... Fields>
 void add_rows(std::vector<Row>& mean, const std::vector<Row>& run, double weight,
               Fields... fields) {
@@ -42,7 +42,7 @@ void add(const InventorySummary& run, double weight, InventorySummary& mean) {
   add_rows(mean.levels, run.levels, weight, &LevelInventory::read);
 }
 
-/// The first run's, with all that is a mean at 0.
+/// The first run's summary, with all averaged values set to 0.
 InventorySummary cleared(InventorySummary first) {
   first.read = first.reads = 0.0;
   for (auto rows : {&InventorySummary::readers, &InventorySummary::antennas}) {
@@ -57,7 +57,7 @@ InventorySummary cleared(InventorySummary first) {
   return first;
 }
 
-/// The mean over all; none where one of them has none.
+/// The mean over all runs; none if one of them has none.
 std::optional<double> mean_time(const std::vector<InventorySummary>& runs, std::size_t which) {
   double sum = 0.0;
   for (const InventorySummary& run : runs) {

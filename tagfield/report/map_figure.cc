@@ -10,7 +10,7 @@ namespace {
 
 using Outcomes = std::vector<const TagOutcome*>;
 
-constexpr double kSeenPoseError = 0.005;  ///< [m] Two paths nearer than that are drawn as one.
+constexpr double kSeenPoseError = 0.005;  ///< [m] Two paths closer than this are drawn as one.
 constexpr std::size_t kMostCandidates = 4;
 constexpr std::size_t kMostWaypoints = 300;  ///< Of one moving tag.
 
@@ -18,14 +18,14 @@ void extend(Extent& extent, const Trajectory& trajectory) {
   for (const StampedPose& pose : trajectory) extent.extend(pose.X_WB.translation.head<2>());
 }
 
-/// Where a tag that moved was; empty for others.
+/// The true path of a tag that moved; empty for others.
 const std::vector<TagPosition>& way_of(const RunFiles& run, const TagOutcome& outcome) {
   static const std::vector<TagPosition> none;
-  const auto found = run.true_places.find(outcome.estimate.tag);
-  return outcome.moved && found != run.true_places.end() ? found->second : none;
+  const auto found = run.true_positions.find(outcome.estimate.tag);
+  return outcome.moved && found != run.true_positions.end() ? found->second : none;
 }
 
-/// What must be on the map: antennas, true tags and the ways of those that moved.
+/// Extent of what must be on the map: antennas, true tag positions, and paths of tags that moved.
 Extent certain_extent(const RunFiles& run, const Outcomes& outcomes) {
   Extent extent;
   for (const AntennaTrack& track : run.tracks) extend(extent, track.best());
@@ -38,7 +38,7 @@ Extent certain_extent(const RunFiles& run, const Outcomes& outcomes) {
   return extent;
 }
 
-/// With the estimates too, those that went far astray excepted.
+/// The same including the estimates, except those that are far off.
 Extent content_extent(const RunFiles& run, const Outcomes& outcomes) {
   const Extent certain = certain_extent(run, outcomes);
   Extent extent = certain;
@@ -70,7 +70,7 @@ std::string spoken_place(const Eigen::Vector3d& p) {
   return fmt::format("x {:.3f}, y {:.3f}, z {:.3f} m", p.x(), p.y(), p.z());
 }
 
-/// What was found on the way of drawing, for legend and caption.
+/// What was drawn, for legend and caption.
 struct Findings {
   bool beliefs = false;
   bool moving = false;
@@ -139,7 +139,7 @@ void draw_candidates(Svg& svg, const MapView& map, const TagEstimate& estimate) 
   }
 }
 
-/// Where the label of a tag belongs: for one that moved, where it came to be.
+/// Position for the label of a tag: for one that moved, its last position.
 std::optional<Eigen::Vector3d> label_place(const RunFiles& run, const TagOutcome& outcome) {
   if (outcome.truth_m) return outcome.truth_m;
   if (!way_of(run, outcome).empty()) return way_of(run, outcome).back().p_WT;

@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kFewestToAlign = 3;  // Two fit in all but their distance.
+constexpr std::size_t kFewestToAlign = 3;  // Two could be aligned except for their distance.
 
 using Outcomes = std::vector<const TagOutcome*>;
 
@@ -17,7 +17,7 @@ const Eigen::Vector3d& place_of(const TagOutcome& outcome) {
   return outcome.estimate.candidates.front().p_WT;
 }
 
-/// Those that have an error, by seed.
+/// Outcomes that have an error, by seed.
 std::map<std::uint64_t, Outcomes> judged_by_seed(const std::vector<TagOutcome>& outcomes) {
   std::map<std::uint64_t, Outcomes> by_seed;
   for (const TagOutcome& outcome : outcomes) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What one method makes of the reads, in numbers, to be compared with others'.
+/// Statistics of one method's results, for comparison with other methods.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace tagfield {
 
-/// Errors of the located tags [m] after the shift and turn of the plane that brings each seed's
-/// estimates closest to the true places; seeds with fewer than three of them have none. What is
-/// left is the shape's error: a pose that is off as a whole shifts and turns all tags alike.
+/// Errors of the located tags [m] after the planar rigid motion that best aligns each seed's
+/// estimates with the true positions; seeds with fewer than three of them have none. What remains
+/// is the error of the relative positions: a global pose error shifts and rotates all tags alike.
 std::vector<double> aligned_errors(const std::vector<TagOutcome>& outcomes);
 
-/// `outcomes` are of all seeds. `align` tells whether aligned errors mean anything, as they do
-/// where the pose is but believed.
+/// The summary of a method. `outcomes` are of all seeds. `align`: whether aligned errors are
+/// meaningful, which they are if the poses are not the true ones.
 MethodSummary summary_of_method(const std::string& method, const std::vector<TagOutcome>& outcomes,
                                 bool align);
 

@@ -15,7 +15,7 @@ std::string row(const std::string& name, const std::string& value, const std::st
                      escaped(name), escaped(value), escaped(meaning));
 }
 
-/// Never 100 % where anything is missing, nor 0 % where anything is there.
+/// Never 100 % if anything is missing, nor 0 % if there is anything.
 std::string percent(double share) {
   double value = 100.0 * share;
   if (share < 1.0) value = std::min(value, 99.9);
@@ -59,7 +59,7 @@ std::string pose_rows(const NavigationSummary& navigation) {
   return rows;
 }
 
-/// The first few, each with its reason.
+/// Rows for the first few goals, each with its reason.
 std::string unreached_rows(const NavigationSummary& navigation) {
   constexpr std::size_t kMostRows = 10;
   const auto& goals = navigation.goals_unreached;

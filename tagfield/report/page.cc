@@ -19,8 +19,8 @@
 namespace tagfield {
 namespace {
 
-/// Only the page's own style counts, and the scripts with these hashes, with the pictures that they
-/// make.
+/// Content security policy: only the page's own style, the scripts with these hashes, and the
+/// images that they make are allowed.
 std::string policy(const std::vector<std::string>& script_hashes) {
   std::string sources;
   for (const std::string& hash : script_hashes) {
@@ -41,7 +41,7 @@ std::string figures_html(const std::vector<Figure>& figures) {
   return "<div class=\"figures\">\n" + drawn + "</div>\n" + missing;
 }
 
-/// Where not all reads fit in memory.
+/// A note if not all reads fit in memory.
 std::string left_out_note(const RunFiles& run) {
   if (run.reads.size() == run.reads_in_table) return "";
   return fmt::format(
@@ -56,7 +56,7 @@ std::string view_section(const std::optional<RunView>& view) {
   return "<section class=\"screen\">\n<h2>The run over time</h2>\n" + view->html + "</section>\n";
 }
 
-/// The hall with the result comes first, tables after it.
+/// The result comes first, with the run over time; then tables, figures, and the table of tags.
 std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
                     const std::optional<RunView>& view) {
   const Summary& summary = run.summary;
@@ -75,7 +75,7 @@ std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
          script_html(link_script()) + "</body>\n</html>\n";
 }
 
-/// Nothing is made where there is no run.
+/// Throws Error if there is no folder, so that none is created.
 void require_run_folder(const std::string& folder) {
   if (!is_folder(folder)) fail({folder, 0}, "no such folder");
 }

@@ -31,7 +31,7 @@ bool all_moved(const Summary& summary) {
                                               [](const TagOutcome& tag) { return tag.moved; });
 }
 
-/// There is no one place that a moving tag could be located at.
+/// A moving tag has no single position at which it could be located.
 std::string moved_sentence(const Summary& summary) {
   return fmt::format(
       "{} of {} read, {} in all. All of them moved, so none has a single position; tagfield track "
@@ -125,7 +125,7 @@ std::string spoken_duration(double seconds) {
   return fmt::format("{:.1f} min", seconds / 60.0);
 }
 
-/// As in an address (RFC 3986).
+/// Percent-encoding as in a URI (RFC 3986).
 std::string percent_encoded(const std::string& text) {
   std::string encoded;
   for (const char c : text) {
@@ -229,7 +229,7 @@ std::string run_facts(const Summary& summary) {
   html += fact(is_inventory_alone(summary) ? "Why" : "Chosen by " + summary.method_asked,
                summary.method_why);
   html += fact("Antenna poses", spoken_pose(summary.pose));
-  if (summary.pose_error && summary.pose != "slam") {  // There nothing was stated.
+  if (summary.pose_error && summary.pose != "slam") {  // For "slam" no error is stated.
     html += fact("Stated pose error",
                  fmt::format("σ {} per axis, σ {:.2f}° in heading, time constant {:.3g} s",
                              spoken_length(summary.pose_error->sigma_m),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The page in words: sentences and numbers about a run, as HTML.
+/// The texts of the page: sentences and numbers about a run, as HTML.
 #pragma once
 
 #include <string>
@@ -11,26 +11,26 @@
 
 namespace tagfield {
 
-/// Title, description, what came out in a sentence or two, and that the run is incomplete.
+/// Title, description, the result in a sentence or two, and a note if the run is incomplete.
 std::string page_header(const Summary& summary, const std::optional<TrackedTags>& tracked);
 
-/// The big numbers.
+/// The headline numbers.
 std::string key_numbers(const Summary& summary);
 
-/// How far off the robot believed its antenna, and what that does to the errors; "" where it
-/// believed the truth. Plain text.
+/// The error of the robot's believed antenna pose, and its effect on the errors; "" if it believed
+/// the truth. Plain text.
 std::string pose_error_text(const Summary& summary);
 
-/// What the same reads give with other poses; "" where nothing was compared. Plain text.
+/// The results of the same reads with other poses; "" if nothing was compared. Plain text.
 std::string compared_pose_text(const Summary& summary);
 
 /// Method, poses, seeds.
 std::string run_facts(const Summary& summary);
 
-/// A link with these words that saves `csv` under this name; the page itself holds what it saves.
+/// A link with this text that saves `csv` under this name; the data is embedded in the page.
 std::string data_link(const std::string& file, const std::string& words, const std::string& csv);
 
-/// One figure with its caption and its data, or the words why it is missing.
+/// One figure with its caption and its data, or the reason why it is missing.
 std::string figure_html(const Figure& figure);
 
 /// How to cite the paper.

@@ -32,7 +32,7 @@ std::map<std::string, ReadSpan> spans_of(const std::vector<TagRead>& reads) {
   return spans;
 }
 
-/// In the order of the first thing passed, then those that passed others alone.
+/// Tags in the first passing order, then those that are only in others.
 std::vector<std::string> tags_in_order(const std::vector<PassingOrder>& orders) {
   std::vector<std::string> tags;
   std::set<std::string> known;
@@ -115,7 +115,7 @@ std::string head_of_passings(const std::vector<PassingOrder>& orders) {
   return html + "</tr></thead>\n<tbody>\n";
 }
 
-/// Never 100 % where it may be otherwise.
+/// The probability in per cent, never shown as 100.
 std::string spoken_sureness(double probability) {
   if (probability > 0.9995) return "> 99.9";
   return fmt::format("{:.1f}", 100.0 * probability);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// When tags passed what they pass: gates, and a line on the floor.
+/// When tags passed antennas and a line on the floor.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@
 
 namespace tagfield {
 
-/// A row a tag, in the order of the first of `orders`: from its first read to its last, and a mark
-/// where it passed each thing. Only the first `kMostRows` tags.
+/// One row per tag, in the order of the first of `orders`: a bar from its first to its last read,
+/// and a mark at each passing. Only the first `kMostRows` tags.
 Figure passings_figure(const std::vector<TagRead>& reads, const std::vector<PassingOrder>& orders);
 
-/// A row a tag: when it passed each thing, with the standard deviation, and how surely before the
-/// tag that follows. HTML with its heading; "" where nothing was passed.
+/// One row per tag: the time of each passing, with its standard deviation, and the probability that
+/// it was before the next tag. HTML with a heading; "" if there are no passings.
 std::string passings_table(const std::vector<PassingOrder>& orders);
 
 }  // namespace tagfield

@@ -12,9 +12,9 @@ namespace tagfield {
 namespace {
 
 constexpr double kPathColorBar = 50.0;
-constexpr double kFarthestTag = 30.0;  ///< [m] An estimate further off the path is not shown.
+constexpr double kFarthestTag = 30.0;  ///< [m] Estimates farther from the path are not shown.
 
-/// A read with the place of the antenna.
+/// A read with the position of the antenna.
 struct PlacedRead {
   const TagRead* read = nullptr;
   Eigen::Vector3d p_WA;

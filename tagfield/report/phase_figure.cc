@@ -16,19 +16,19 @@ namespace {
 constexpr double kPhaseTop = 58.0;
 constexpr std::size_t kMostRules = 40;
 constexpr std::size_t kFewReads =
-    8;  ///< Shorter segments, as at the edge of the range, only clutter.
+    8;  ///< Shorter segments, as at the limit of the range, are only clutter.
 
 /// A sample as drawn.
 struct PhasePoint {
   double time_s = 0.0;  ///< Since the first read of the tag.
   double measured_m = 0.0;
-  std::optional<double> true_m;  ///< True distance, less what makes the segment's mean agree.
+  std::optional<double> true_m;  ///< True distance, shifted to agree in the segment's mean.
 };
 using Segment = std::vector<PhasePoint>;
 
 std::optional<double> true_distance(const RunFiles& run, const AntennaTrack& track,
                                     const std::string& tag, Time stamp) {
-  const auto p_WT = true_place(run, tag, stamp);
+  const auto p_WT = true_position(run, tag, stamp);
   const auto X_WA = pose_at(track.truth, stamp);
   if (!p_WT || !X_WA) return std::nullopt;
   return (*p_WT - X_WA->translation).norm();
@@ -41,7 +41,7 @@ std::vector<PhaseSegment> segments_of(const AntennaTrack& track, const std::stri
   return unwrap(of_tag->second.begin()->second, HyperbolaOptions{}.max_step);
 }
 
-/// The phase tells changes only, so the true distance is shifted to agree in the segment's mean.
+/// The phase gives only changes, so the true distance is shifted to agree in the segment's mean.
 void align_truth(Segment& segment) {
   double sum = 0.0;
   std::size_t known = 0;
@@ -78,7 +78,7 @@ std::vector<Segment> drawn_segments(const RunFiles& run, const AntennaTrack& tra
   return drawn;
 }
 
-/// Least and greatest of a property over all points.
+/// Range of a property over all points, including 0.
 template <typename Property>
 std::pair<double, double> range_of(const std::vector<Segment>& segments, Property property) {
   double low = 0.0;
@@ -118,7 +118,7 @@ void draw_starts(Svg& svg, const Axes& axes, const std::vector<Segment>& segment
   }
 }
 
-/// The points of one property as dots, at most `kMostMarks` of them over all segments.
+/// Draws one property of the points as dots, at most `kMostMarks` of them over all segments.
 template <typename Property>
 void draw_dots(Svg& svg, const Axes& axes, const std::vector<Segment>& segments,
                Property property) {
@@ -143,7 +143,7 @@ void draw_truth(Svg& svg, const Axes& axes, const std::vector<Segment>& segments
   }
 }
 
-/// Measured less true, below the main axes.
+/// Draws measured minus true, below the main axes.
 void draw_residuals(Svg& svg, const Scale& time, const std::vector<Segment>& segments) {
   const auto [low, high] = range_of(segments, residual_mm);
   Axes axes{time, round_scale(low, high, 4)};
@@ -172,7 +172,7 @@ void draw_segments(Svg& svg, const std::vector<Segment>& segments, bool truth_kn
   if (truth_known) draw_residuals(svg, axes.x, segments);
 }
 
-/// Takes out the segments of few reads, unless there are no others; returns how many.
+/// Removes segments with few reads, unless there are no others; returns their number.
 std::size_t leave_out_short(std::vector<Segment>& segments) {
   const auto is_short = [](const Segment& segment) { return segment.size() < kFewReads; };
   if (std::all_of(segments.begin(), segments.end(), is_short)) return 0;

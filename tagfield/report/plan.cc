@@ -122,7 +122,7 @@ std::string plan_antennas_to_csv(const AntennaPlan& plan) {
   return text;
 }
 
-std::string plan_places_to_csv(const AntennaPlan& plan) {
+std::string plan_positions_to_csv(const AntennaPlan& plan) {
   std::string text = "group,zone,x_m,y_m,z_m";
   for (const PlannedLayout& layout : plan.layouts) {
     text += fmt::format(",p_{}", layout.antennas.size());

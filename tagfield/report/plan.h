@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where antennas go: ranked layouts, what each costs and reads, and how sure that is.
+/// Placement of antennas: ranked layouts, with their costs, what they read, and the uncertainty of
+/// that.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,72 +26,72 @@ struct PlannedAntenna {
   double cost = 0.0;
 };
 
-/// How much of a zone's tags are read, and by others.
+/// How many of a zone's tags are read, and how many by readers of other zones.
 struct PlannedZone {
   std::string zone;
   std::size_t tags = 0;
-  ExpectedCount read;   ///< Tags, by anyone, as PlannedLayout::read counts them.
-  ExpectedCount cross;  ///< Tags that a reader of another zone reads.
+  ExpectedCount read;   ///< Tags read by any reader, counted as in PlannedLayout::read.
+  ExpectedCount cross;  ///< Tags read by a reader of another zone.
 };
 
-/// What each tag is to have.
+/// The aim for each tag.
 struct PlannedAim {
   enum class Kind { kReadProbability, kReads, kPosition };
   Kind kind = Kind::kReadProbability;
-  /// Beyond which more is worth nothing: a probability, reads in the time, or a bound on the error
-  /// of its place [m].
+  /// Value beyond which more is worth nothing: a probability, reads within the dwell time, or a
+  /// bound on the position error [m].
   double value = 1.0;
-  std::optional<double> share{};   ///< Of it that is enough, over all tags,
-  bool is_for_least_cost = false;  ///< for the least cost, instead of antennas.
+  std::optional<double> share{};   ///< Share of it over all tags that is sufficient,
+  bool is_for_least_cost = false;  ///< reached with the lowest cost instead of the fewest antennas.
 };
 
-/// "read", "read at least 5 times", "locatable to within 0.3 m": tags that have what is aimed at.
+/// "read", "read at least 5 times", "locatable to within 0.3 m": description of the tags that
+/// attain the aim.
 std::string words_for(const PlannedAim& aim);
 
-/// The best layout found of so many antennas.
+/// The best layout found for one number of antennas.
 struct PlannedLayout {
   std::vector<PlannedAntenna> antennas;
   std::size_t readers = 0;
   double cost = 0.0;
-  double score = 0.0;  ///< What the choice maximizes (SelectionProblem), before contention.
-  /// To be held against PlannedAim::share: of a probability the score, else the share of tags that
-  /// have what is aimed at, as forecast.
+  double score = 0.0;  ///< The objective of the selection (SelectionProblem), before contention.
+  /// Compared with PlannedAim::share: the score if the aim is a probability, else the forecast
+  /// share of tags that attain the aim.
   double share = 0.0;
-  double bound = 1.0;     ///< No layout of as many antennas within the limits has more.
-  bool is_exact = false;  ///< The bound is of an integer program.
-  /// Tags that have in the time what is aimed at, if that is not a mere probability; else that are
-  /// read. Slots and hops included, as in all counts.
+  double bound = 1.0;     ///< Upper bound for layouts with as many antennas within the limits.
+  bool is_exact = false;  ///< Whether the bound is from an integer program.
+  /// Tags that are read within the dwell time or, if the aim is not just a probability, attain the
+  /// aim. Includes slots and hops, as all counts do.
   ExpectedCount read;
-  /// Tags that a reader of another zone reads, with links as they are, `plan.margin_db` not taken
-  /// off.
+  /// Tags read by a reader of another zone, without subtracting `plan.margin_db` from the links.
   ExpectedCount cross;
   std::vector<PlannedZone> zones;
-  /// For AntennaPlan::places, the probability to be read, or the share of orientations and fading
-  /// states in which the aim is met.
+  /// For each of AntennaPlan::places, the read probability, or the share of orientations and fading
+  /// states in which the aim is attained.
   std::vector<double> places;
-  /// Where positions are aimed at, for each place the bound on its error [m], root mean square over
-  /// the plane; infinite where too few antennas read it, or from one direction.
+  /// If the aim is a position error, for each of the places its bound in the plane [m, RMS];
+  /// infinite if too few antennas read it, or all from the same direction.
   std::vector<double> errors_m;
 };
 
-/// A place where tags can be.
+/// A possible position of tags.
 struct PlannedPlace {
   std::string group;
   std::string zone;
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
 };
 
-/// A place that stays hard to read, and why.
+/// A position that remains hard to read, and why.
 struct HardPlace {
   std::size_t place = 0;  ///< Index into AntennaPlan::places.
   double probability = 0.0;
   std::string best_antenna;
   double distance_m = 0.0;
-  double median_db = 0.0;  ///< Margin of the best link, the median over fading and orientations.
+  double median_db = 0.0;  ///< Margin of the best link, median over fading and orientations.
   std::string why;
 };
 
-/// What becomes of the chosen layout where something is otherwise.
+/// The result of the chosen layout under a changed assumption.
 struct PlanVariant {
   std::string what;
   ExpectedCount read;
@@ -100,9 +101,9 @@ struct PlanVariant {
 struct PlanCheck {
   std::vector<std::uint64_t> seeds;
   std::vector<double> read;  ///< Tags, by seed.
-  std::size_t inside = 0;    ///< Of the runs, those within the stated range.
-  /// Tags that readers of other zones read, by seed, and how many of that lie within the stated
-  /// range; empty where there are no two zones.
+  std::size_t inside = 0;    ///< Number of runs within the stated interval.
+  /// Tags read by readers of other zones, by seed, and number of runs within the stated interval;
+  /// empty if there are fewer than two zones.
   std::vector<double> cross;
   std::size_t cross_inside = 0;
 };
@@ -111,33 +112,33 @@ struct AntennaPlan {
   std::string scenario;
   std::string description;
   double dwell_s = 0.0;
-  std::size_t tags = 0;     ///< That are there in the time.
-  std::size_t options = 0;  ///< Ways to mount an antenna, powers included.
+  std::size_t tags = 0;     ///< Number of tags present in the dwell time.
+  std::size_t options = 0;  ///< Number of options to mount an antenna, including powers.
   PlannedAim aim;
   std::optional<double> cross_limit;
-  std::string limits;                  ///< For people.
-  std::string stopped_by;              ///< What keeps more antennas out; "" for nothing.
-  std::optional<double> guaranteed;    ///< Share of the best that greed has for sure.
-  std::vector<PlannedLayout> layouts;  ///< From one antenna up.
+  std::string limits;                ///< Human-readable.
+  std::string stopped_by;            ///< What prevents more antennas; "" for nothing.
+  std::optional<double> guaranteed;  ///< Share of the optimum that the greedy selection guarantees.
+  std::vector<PlannedLayout> layouts;  ///< From one antenna upwards.
   std::size_t chosen = 0;              ///< Index into `layouts`.
   bool reaches_aim = true;
   std::vector<PlannedPlace> places;
-  std::vector<HardPlace> hard;  ///< Of the chosen layout, the hardest first.
+  std::vector<HardPlace> hard;  ///< Of the chosen layout, hardest first.
   std::vector<PlanVariant> sensitivity;
   std::optional<PlanCheck> check;
   std::vector<std::string> warnings;
 };
 
-/// `antennas,readers,cost,score,share,bound,read_mean,read_low,read_high,cross_worst`, a row a
+/// `antennas,readers,cost,score,share,bound,read_mean,read_low,read_high,cross_worst`, one row per
 /// layout.
 std::string plan_layouts_to_csv(const AntennaPlan& plan);
-/// `antennas,antenna,mount,reader,zone,x_m,y_m,z_m,boresight_x,…,power_dbm,cost`, a row an antenna
-/// of each layout.
+/// `antennas,antenna,mount,reader,zone,x_m,y_m,z_m,boresight_x,…,power_dbm,cost`, one row per
+/// antenna of each layout.
 std::string plan_antennas_to_csv(const AntennaPlan& plan);
-/// `group,zone,x_m,y_m,z_m,p_1,p_2,…`: by number of antennas what PlannedLayout::places has, and
-/// `error_m_1,…` where positions are aimed at, empty for infinite; a row a place.
-std::string plan_places_to_csv(const AntennaPlan& plan);
-/// All but the places as JSON text.
+/// `group,zone,x_m,y_m,z_m,p_1,p_2,…`: PlannedLayout::places by number of antennas, and
+/// `error_m_1,…` if the aim is a position error, empty for infinite; one row per place.
+std::string plan_positions_to_csv(const AntennaPlan& plan);
+/// Everything except the places as JSON text.
 std::string plan_to_json(const AntennaPlan& plan);
 
 }  // namespace tagfield

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMostMaps = 4;
 constexpr std::size_t kMostCircles = 6000;
 
-/// Places between two heights.
+/// Positions between two heights.
 struct Level {
   double low_m = 0.0;
   double high_m = 0.0;
@@ -61,7 +61,7 @@ Extent extent_of_plan(const AntennaPlan& plan) {
   return {extent.min() - rim, extent.max() + rim};
 }
 
-/// Of a place, where positions are aimed at.
+/// The error at a position, if the aim is a position error.
 std::string error_text(const PlannedLayout& layout, std::size_t place) {
   if (layout.errors_m.empty()) return "";
   return std::isfinite(layout.errors_m[place])
@@ -69,8 +69,8 @@ std::string error_text(const PlannedLayout& layout, std::size_t place) {
              : ", read by too few antennas";
 }
 
-void draw_place(Svg& svg, const MapView& map, const AntennaPlan& plan, std::size_t place,
-                double radius) {
+void draw_position(Svg& svg, const MapView& map, const AntennaPlan& plan, std::size_t place,
+                   double radius) {
   const ColorBands bands = probability_bands();
   const double p = plan.layouts[plan.chosen].places[place];
   const std::string& color = bands.colors[band_of(bands, p)];
@@ -81,7 +81,7 @@ void draw_place(Svg& svg, const MapView& map, const AntennaPlan& plan, std::size
                          error_text(plan.layouts[plan.chosen], place)));
 }
 
-/// A wedge that opens to where the antenna looks, or a ring where that is up or down.
+/// A wedge that opens in the direction of the boresight, or a ring if that is vertical.
 void draw_planned_antenna(Svg& svg, const MapView& map, const PlannedAntenna& antenna,
                           const std::string& color) {
   const Place at = on_map(map, antenna.p_W);
@@ -137,7 +137,7 @@ Figure level_figure(const AntennaPlan& plan, const Level& level, std::size_t num
   figure.data = "group,x_m,y_m,z_m,share\n";
   for (std::size_t i = 0; i < level.places.size(); i += step) {
     const std::size_t index = level.places[i];
-    draw_place(figure.svg, map, plan, index, radius);
+    draw_position(figure.svg, map, plan, index, radius);
     const PlannedPlace& place = plan.places[index];
     add_data(figure.data, place.group, place.p_W.x(), place.p_W.y(), place.p_W.z(),
              plan.layouts[plan.chosen].places[index]);
@@ -180,7 +180,7 @@ Figure curve_figure(const AntennaPlan& plan) {
   draw_axes(figure.svg, axes, "antennas", fmt::format("tags {} [%]", words_for(plan.aim)));
   using Kind = PlannedAim::Kind;
   const double most_likely = plan.aim.kind == Kind::kReadProbability ? plan.aim.value : 1.0;
-  // What is told of places, and so maximized, bounds no number of them.
+  // For a position error the bound of the maximized score does not bound the number of tags.
   const bool has_bounds = plan.aim.kind != Kind::kPosition;
   std::vector<Place> means;
   std::vector<Place> bounds;

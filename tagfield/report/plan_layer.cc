@@ -23,7 +23,7 @@ std::string in_folder(const std::string& folder, const char* name) {
 
 Json list_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
-Json antenna_json(const JsonPlace& antenna) {
+Json antenna_json(const JsonLocation& antenna) {
   return {{"name", text_at(member(antenna, "name"))},
           {"reader", text_at(member(antenna, "reader"))},
           {"position", list_of(point_at(member(antenna, "position_m")))},
@@ -31,22 +31,22 @@ Json antenna_json(const JsonPlace& antenna) {
           {"power_dbm", number_at(member(antenna, "power_dbm"))}};
 }
 
-Json layout_json(const JsonPlace& layout) {
+Json layout_json(const JsonLocation& layout) {
   Json json = {{"antennas", Json::array()},
                {"readers", whole_at(member(layout, "readers"))},
                {"cost", number_at(member(layout, "cost"))}};
-  for (const JsonPlace& antenna : elements(member(layout, "antennas"))) {
+  for (const JsonLocation& antenna : elements(member(layout, "antennas"))) {
     json["antennas"].push_back(antenna_json(antenna));
   }
-  const JsonPlace read = member(layout, "read");
+  const JsonLocation read = member(layout, "read");
   for (const char* const key : {"mean", "low", "high"}) {
     json["read"].push_back(number_at(member(read, key)));
   }
   return json;
 }
 
-/// Where in `layouts` the one of so many antennas is.
-std::size_t number_of(const Json& layouts, std::uint64_t antennas, const JsonPlace& said) {
+/// Index in `layouts` of the one with this number of antennas.
+std::size_t number_of(const Json& layouts, std::uint64_t antennas, const JsonLocation& said) {
   for (std::size_t i = 0; i < layouts.size(); ++i) {
     if (layouts[i]["antennas"].size() == antennas) return i;
   }
@@ -84,16 +84,16 @@ bool is_plan_folder(const std::string& folder) {
 std::string plan_layer_to_json(const std::string& folder) {
   const std::string file = in_folder(folder, "plan.json");
   const Json content = parsed_json(read_text_file(file), file);
-  const JsonPlace plan{&content, file, ""};
+  const JsonLocation plan{&content, file, ""};
   Json json = {{"scenario", text_at(member(plan, "scenario"))},
                {"counts", text_at(member(plan, "counts"))},
                {"tags", whole_at(member(plan, "tags"))},
                {"dwell_s", number_at(member(plan, "dwell_s"))},
                {"layouts", Json::array()}};
-  for (const JsonPlace& layout : elements(member(plan, "layouts"))) {
+  for (const JsonLocation& layout : elements(member(plan, "layouts"))) {
     json["layouts"].push_back(layout_json(layout));
   }
-  const JsonPlace chosen = member(plan, "chosen_antennas");
+  const JsonLocation chosen = member(plan, "chosen_antennas");
   json["chosen"] = number_of(json["layouts"], whole_at(chosen), chosen);
   add_places(read_csv(in_folder(folder, "plan_places.csv")), json);
   const ColorBands bands = probability_bands();

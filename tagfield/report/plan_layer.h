@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A plan that lies in a folder, for a page that draws the world.
+/// A plan from a folder, for a page that draws the world.
 #pragma once
 
 #include <string>
 
 namespace tagfield {
 
-/// Whether that is a plan's folder: one with plan.json and plan_places.csv.
+/// Whether `folder` is that of a plan: one with plan.json and plan_places.csv.
 bool is_plan_folder(const std::string& folder);
 
 /// The plan in `folder` as JSON text: what is counted, the layouts with their antennas [m, world],
-/// the places of tags and, by layout and place, in how many of a hundred cases a tag there has what
-/// is aimed at, with the bands of colour for that. Throws Error "FILE: …" where the files are not
-/// whole or don't belong together.
+/// the positions of tags and, by layout and position, the percentage of cases in which a tag there
+/// attains the aim, with the colour bands for that. Throws Error "FILE: …" if the files are
+/// incomplete or inconsistent.
 std::string plan_layer_to_json(const std::string& folder);
 
 }  // namespace tagfield

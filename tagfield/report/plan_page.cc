@@ -60,7 +60,7 @@ std::string plan_numbers(const AntennaPlan& plan) {
   return html + "</dl>\n";
 }
 
-/// What the script needs.
+/// The data for the script.
 std::string plan_data(const AntennaPlan& plan) {
   const ColorBands bands = probability_bands();
   nlohmann::json data;
@@ -91,7 +91,7 @@ std::string plan_data(const AntennaPlan& plan) {
     data["layouts"].push_back(std::move(one));
   }
   std::string text = data.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-  // Nothing in it may end the element that holds it.
+  // The text must not end the element that contains it.
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
     text.replace(at, 1, "\\u003c");
   }
@@ -142,7 +142,7 @@ std::string controls(const AntennaPlan& plan) {
                          true);
 }
 
-/// The words at the head of a column.
+/// The words with a capital letter, as a column header.
 std::string capital(std::string words) {
   if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] += 'A' - 'a';
   return words;
@@ -311,7 +311,7 @@ std::string aim_text(const AntennaPlan& plan) {
   return text;
 }
 
-/// What the dots are.
+/// Explanation of the dots.
 std::string dots_text(const PlannedAim& aim) {
   const std::string over = "over orientations and fading, before contention for slots";
   if (aim.kind == PlannedAim::Kind::kReadProbability) {
@@ -361,7 +361,7 @@ std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figure
           hard_table(plan) + sensitivity_table(plan) + "<h2>Tables</h2>\n<p>" +
           data_link("plan_layouts.csv", "layouts", plan_layouts_to_csv(plan)) + " · " +
           data_link("plan_antennas.csv", "antennas", plan_antennas_to_csv(plan)) + " · " +
-          data_link("plan_places.csv", "places", plan_places_to_csv(plan)) + " (CSV)</p>\n";
+          data_link("plan_places.csv", "places", plan_positions_to_csv(plan)) + " (CSV)</p>\n";
   return html +
          "</main>\n<footer>\n<p>Made by Tagfield; the same tables are beside this page, and "
          "layout.yaml is the chosen layout as a scenario.</p>\n</footer>\n" +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A plan as a page: the hall from above with what is read, by number of antennas.
+/// The page of a plan: the hall from above with read probabilities, by number of antennas.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace tagfield {
 
-/// The hall from above, one map a level of the places, four at most; then what each number of
-/// antennas reads, and what it costs.
+/// The hall from above, one map per level of positions, at most four; then what is read over the
+/// number of antennas.
 std::vector<Figure> plan_figures(const AntennaPlan& plan, const std::vector<Silhouette>& top_view);
 
-/// Self-contained: all figures, the tables, a slider over the number of antennas.
+/// The page, self-contained: all figures, the tables, a slider for the number of antennas.
 std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figures);
 
 }  // namespace tagfield

@@ -19,7 +19,7 @@ constexpr double kBelowAxes = 48.0;
 /// One error of one antenna over time.
 struct Course {
   std::vector<double> times_s;
-  std::vector<double> values;  ///< As many.
+  std::vector<double> values;  ///< Same length as `times_s`.
 };
 
 /// One of the two panels: an error of all moving antennas.
@@ -34,7 +34,7 @@ double horizontal_error_mm(const RigidTransform& believed, const RigidTransform&
   return 1e3 * (believed.translation - truth.translation).head<2>().norm();
 }
 
-/// Of the turn about z that leads from one to the other, however the antenna is mounted.
+/// Angle of the rotation about z between the two, however the antenna is mounted.
 double yaw_error_deg(const RigidTransform& believed, const RigidTransform& truth) {
   return degrees(std::abs(yaw_of(believed.rotation * truth.rotation.conjugate())));
 }
@@ -84,7 +84,7 @@ Axes panel_axes(const Panel& panel, double top) {
   return axes;
 }
 
-/// Of many values in a row the greatest is drawn, so that no peak is lost.
+/// Points of the curve. Of several successive values the largest is drawn, so that no peak is lost.
 std::vector<Place> places_of(const Axes& axes, const Course& course) {
   std::vector<Place> places;
   const std::size_t step = thinning(course.values.size(), kMostMarks);
@@ -112,7 +112,7 @@ void draw_level(Svg& svg, const Axes& axes, const Panel& panel, const std::strin
   add_rimmed_text(svg, {x, y - 5.0}, text, anchor);
 }
 
-/// A dot at the greatest value, which says when it was.
+/// Draws a dot at the largest value, with its time.
 void draw_greatest(Svg& svg, const Axes& axes, const Panel& panel) {
   for (const Course& course : panel.courses) {
     const auto greatest = std::max_element(course.values.begin(), course.values.end());

@@ -11,9 +11,9 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostCells = 1200;  ///< Along x or y; finer ones can't be seen.
+constexpr std::size_t kMostCells = 1200;  ///< Along x or y; smaller cells are not visible.
 
-/// What the map knows, and the ways over it.
+/// Extent of the known part of the map, and of the paths on it.
 Extent content_of(const OccupancyGrid& grid, const MappingWay& way) {
   Extent extent;
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * grid.resolution_m);
@@ -30,7 +30,7 @@ Extent content_of(const OccupancyGrid& grid, const MappingWay& way) {
   return extent;
 }
 
-/// From cells, y upwards, to the drawing.
+/// Transform from cells, y upwards, to the drawing.
 std::string cells_to_drawing(const MapView& map, const OccupancyGrid& grid) {
   const Place origin = place_in(map.axes, grid.origin.x(), grid.origin.y());
   const double size = map.scale * grid.resolution_m;
@@ -68,7 +68,7 @@ std::vector<LegendEntry> legend_of(const MappingWay& way) {
   return entries;
 }
 
-/// Mean horizontal distance between the two ways [m].
+/// Mean horizontal distance between the two paths [m].
 std::optional<double> mean_distance(const MappingWay& way) {
   std::vector<double> distances;
   for (const StampedPose& pose : way.believed) {

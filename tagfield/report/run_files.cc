@@ -21,7 +21,7 @@ constexpr double kMovingExtent = 0.05;  ///< [m]
 
 using Trajectories = std::map<std::string, Trajectory>;
 
-/// By antenna, in rising order of time, each stamp once.
+/// Trajectories by antenna, in chronological order, without duplicate timestamps.
 Trajectories by_antenna(const std::vector<AntennaPose>& poses) {
   Trajectories trajectories;
   for (const AntennaPose& pose : poses) {
@@ -42,7 +42,7 @@ bool is_moving(const Trajectory& trajectory) {
   return box.sizes().norm() > kMovingExtent;
 }
 
-/// A recording has a row each update of an antenna that never moves, too: the first says all.
+/// A recording has one row per update even for stationary antennas, of which the first is enough.
 void leave_out_rest(Trajectories& trajectories) {
   for (auto& [antenna, trajectory] : trajectories) {
     const RigidTransform first = trajectory.front().X_WB;
@@ -55,7 +55,7 @@ void leave_out_rest(Trajectories& trajectories) {
   }
 }
 
-/// Reads of an antenna without a pose have no track: no figure can place them.
+/// Reads of an antenna without a pose have no track, as no figure can show them.
 std::vector<AntennaTrack> tracks_of(const std::vector<TagRead>& reads, const Trajectories& believed,
                                     Trajectories truth) {
   std::map<std::string, AntennaTrack> tracks;
@@ -75,26 +75,26 @@ std::vector<AntennaTrack> tracks_of(const std::vector<TagRead>& reads, const Tra
   return list;
 }
 
-/// Keeps the tags' places in `run` and gives back the antennas' ways.
+/// Stores the tags' positions in `run` and returns the antennas' trajectories.
 Trajectories take_truth(const Truth& truth, RunFiles& run) {
   for (const TagPosition& position : truth.tag_positions) {
-    run.true_places[position.tag].push_back(position);
+    run.true_positions[position.tag].push_back(position);
   }
-  for (auto& [tag, places] : run.true_places) {
+  for (auto& [tag, places] : run.true_positions) {
     std::stable_sort(places.begin(), places.end(),
                      [](const TagPosition& a, const TagPosition& b) { return a.stamp < b.stamp; });
   }
   return by_antenna(truth.antenna_poses);
 }
 
-/// The robot's belief where the run was judged with the true poses beside it.
+/// Reads the robot's believed poses of a run that was localized with the true ones.
 void take_compared_poses(const std::string& file, Trajectories& believed) {
   for (auto& [antenna, trajectory] : by_antenna(read_poses_csv(file))) {
     believed[antenna] = std::move(trajectory);
   }
 }
 
-/// The way of the one robot in such a file; empty without the file.
+/// The path of the only robot in such a file; empty without the file.
 Trajectory read_way(const std::string& file) {
   if (!is_there(file)) return {};
   Trajectories ways = by_antenna(read_poses_csv(file));
@@ -156,7 +156,7 @@ RunFiles recorded_run(const std::string& name, std::vector<TagRead> reads,
   run.reads_in_table = run.reads.size();
   Trajectories true_poses = take_truth(truth, run);
   std::map<std::string, std::size_t> counts = count_by_tag(run.reads);
-  for (const auto& [tag, places] : run.true_places) counts.emplace(tag, 0);
+  for (const auto& [tag, places] : run.true_positions) counts.emplace(tag, 0);
   for (const auto& [tag, count] : counts) {
     TagOutcome outcome;
     outcome.estimate.tag = tag;
@@ -198,7 +198,7 @@ std::vector<const TagRead*> reads_of(const AntennaTrack& track, const std::strin
 }
 
 SamplesByTag believed_samples(const AntennaTrack& track, const std::vector<const TagRead*>& reads) {
-  constexpr double kMaxPoseGap_s = 0.5;  // As localization's default.
+  constexpr double kMaxPoseGap_s = 0.5;  // The default of localization.
   std::vector<TagRead> copies;
   copies.reserve(reads.size());
   for (const TagRead* read : reads) copies.push_back(*read);
@@ -207,8 +207,9 @@ SamplesByTag believed_samples(const AntennaTrack& track, const std::vector<const
   for (const StampedPose& pose : track.believed) {
     poses.push_back({pose.stamp, track.antenna, pose.X_WB});
   }
-  Diagnostics told_before;
-  return join_reads_with_tracks(copies, tracks_of(poses, told_before), kMaxPoseGap_s, told_before);
+  Diagnostics reported_before;
+  return join_reads_with_tracks(copies, tracks_of(poses, reported_before), kMaxPoseGap_s,
+                                reported_before);
 }
 
 std::vector<const TagOutcome*> first_outcomes(const Summary& summary) {
@@ -229,9 +230,10 @@ std::optional<Eigen::Vector3d> known_place(const TagOutcome& outcome) {
   return outcome.estimate.candidates.front().p_WT;
 }
 
-std::optional<Eigen::Vector3d> true_place(const RunFiles& run, const std::string& tag, Time stamp) {
-  const auto places = run.true_places.find(tag);
-  if (places == run.true_places.end()) return std::nullopt;
+std::optional<Eigen::Vector3d> true_position(const RunFiles& run, const std::string& tag,
+                                             Time stamp) {
+  const auto places = run.true_positions.find(tag);
+  if (places == run.true_positions.end()) return std::nullopt;
   const auto after = std::upper_bound(
       places->second.begin(), places->second.end(), stamp,
       [](Time time, const TagPosition& position) { return time < position.stamp; });

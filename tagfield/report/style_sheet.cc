@@ -6,7 +6,7 @@
 namespace tagfield {
 namespace {
 
-/// The palette whose colours are the page's own properties.
+/// The palette whose colours are the page's custom properties.
 Palette page_palette() {
   return {"var(--paper)",      "var(--panel)",    "var(--ink)",       "var(--muted)",
           "var(--grid)",       "var(--wall)",     "var(--wall-edge)", "var(--truth)",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Colours and style sheets: one set of rules for the figures, worn by the page in light and dark
-/// and by the single files in light.
+/// Colours and style sheets: one set of rules for the figures, used in the page with light and dark
+/// colours and in standalone files with light ones.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace tagfield {
 
-/// Colours as CSS writes them.
+/// Colours in CSS notation.
 struct Palette {
   std::string paper;  ///< Background.
   std::string panel;  ///< Background of a box on it.
@@ -21,7 +21,7 @@ struct Palette {
   std::string truth;     ///< Magenta, as in the paper.
   std::string estimate;  ///< Blue, as in the paper.
   std::string believed;
-  std::string map_free;  ///< A map of cells is light on the dark page too, but not glaring.
+  std::string map_free;  ///< A grid map is light on the dark page, too, but not glaring.
   std::string map_occupied;
   std::string map_unknown;
 };
@@ -29,14 +29,14 @@ struct Palette {
 Palette light_palette();
 Palette dark_palette();
 
-/// How many colours there are for things of one kind: classes line0, dot0, line1, …, which stand
-/// out from light and dark paper.
+/// Number of colours for series of one kind: classes line0, dot0, line1, …, with good contrast to a
+/// light and a dark background.
 inline constexpr std::size_t kSeriesColors = 10;
 
 /// Rules for the classes that figures use.
 std::string figure_style(const Palette& palette);
 
-/// Rules of the whole page, figures included, light or dark as the reader's device asks.
+/// Rules for the whole page, including figures, light or dark as preferred by the reader's device.
 std::string page_style();
 
 }  // namespace tagfield

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Estimates judged against the truth, and who was read: the numbers of a run, and their JSON.
+/// Estimates compared with the truth, and which tags were read: the statistics of a run, and their
+/// JSON.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,16 +18,16 @@
 
 namespace tagfield {
 
-/// What one reader, or one antenna, read.
+/// The reads of one reader, or of one antenna.
 struct InventoryShare {
   std::string name;
-  std::string reader;  ///< That an antenna belongs to; of a reader its own name.
+  std::string reader;  ///< The reader that an antenna belongs to; for a reader its own name.
   double tags = 0.0;   ///< Read at least once.
-  double only = 0.0;   ///< Of these, read by no other of the kind.
+  double only = 0.0;   ///< Of these, read by no other reader (or antenna).
   double reads = 0.0;
 };
 
-/// How much of another zone a reader reads.
+/// The reads of tags in another zone by a reader.
 struct CrossRead {
   std::string reader;
   double tags = 0.0;
@@ -36,12 +37,12 @@ struct CrossRead {
 /// The tags of one zone.
 struct ZoneInventory {
   std::string zone;
-  std::vector<std::string> readers;  ///< That it is meant for.
+  std::vector<std::string> readers;  ///< Intended readers of the zone.
   std::size_t tags = 0;
-  double read = 0.0;             ///< By anyone.
-  double read_by_own = 0.0;      ///< By a reader that it is meant for.
-  double crossed = 0.0;          ///< Read by a reader that it is not meant for.
-  std::vector<CrossRead> cross;  ///< By those readers.
+  double read = 0.0;             ///< By any reader.
+  double read_by_own = 0.0;      ///< By an intended reader.
+  double crossed = 0.0;          ///< Read by an unintended reader.
+  std::vector<CrossRead> cross;  ///< By unintended readers.
 };
 
 /// The tags between two heights.
@@ -54,40 +55,40 @@ struct LevelInventory {
 
 struct InventoryMoment {
   double time_s = 0.0;
-  double share = 0.0;  ///< Of all tags, read by then at least once.
+  double share = 0.0;  ///< Of all tags, read at least once by that time.
 };
 
-/// When a share of all tags had been read.
+/// The time when a share of all tags had been read.
 struct ReachedShare {
   double share = 0.0;
-  std::optional<double> time_s;  ///< None where it was not reached in every run.
+  std::optional<double> time_s;  ///< None if it was not reached in every run.
 };
 
-/// What it costs to do without one antenna.
+/// The effect of omitting one antenna.
 struct InventoryWithout {
   std::string antenna;
-  double read = 0.0;  ///< Tags read without it, the mean over the same seeds.
+  double read = 0.0;  ///< Tags read without it, mean over the same seeds.
 };
 
-/// One run, or the mean of several: counts are then means, too.
+/// One run, or the mean of several, whose counts are then means, too.
 struct InventorySummary {
   std::size_t tags = 0;
   double duration_s = 0.0;
   double read = 0.0;  ///< Tags read at least once.
   double reads = 0.0;
-  double least_read = 0.0;  ///< Of the runs; the same as `read` of one.
+  double least_read = 0.0;  ///< Minimum over the runs; equal to `read` for one run.
   double most_read = 0.0;
-  std::optional<double> median_reads;  ///< Of a tag that was read.
+  std::optional<double> median_reads;  ///< Of the tags that were read.
   std::vector<ReachedShare> reached;   ///< 50, 95 and 99 %.
-  std::vector<InventoryMoment> curve;  ///< Of the first run; time and share do not fall.
+  std::vector<InventoryMoment> curve;  ///< Of the first run; time and share are non-decreasing.
   std::vector<InventoryShare> readers;
   std::vector<InventoryShare> antennas;
   std::vector<ZoneInventory> zones;
   std::vector<LevelInventory> levels;     ///< From the lowest.
-  std::vector<InventoryWithout> without;  ///< Each antenna in turn; empty where that was not asked.
+  std::vector<InventoryWithout> without;  ///< Each antenna in turn; empty if not requested.
 };
 
-/// Share of all tags that were read; 0 of none.
+/// Share of all tags that were read; 0 if there are none.
 double share_of(double part, std::size_t tags);
 
 /// The mean of several runs of one scenario; at least one.
@@ -97,71 +98,72 @@ InventorySummary mean_of(const std::vector<InventorySummary>& runs);
 struct TagOutcome {
   std::uint64_t seed = 0;
   TagEstimate estimate;
-  std::size_t reads = 0;  ///< All of the tag, whether localization could use them or not.
-  std::optional<Eigen::Vector3d> truth_m;  ///< None where unknown, or where the tag moved.
-  bool moved = false;                      ///< The tag did not rest, so it has no one true place.
-  bool reference = false;  ///< Localization was told its place, so that it has no error.
+  std::size_t reads = 0;  ///< All of the tag, whether or not localization could use them.
+  std::optional<Eigen::Vector3d> truth_m;  ///< None if unknown, or if the tag moved.
+  bool moved = false;      ///< The tag was not stationary, so it has no single true position.
+  bool reference = false;  ///< Its position was given to localization, so it has no error.
 };
 
-/// |estimate − truth| [m] of a located tag with a known place that localization was not told.
+/// |estimate − truth| [m] of a located tag with a known position that was not given to
+/// localization.
 std::optional<double> error_of(const TagOutcome& outcome);
 
 struct ErrorStatistics {
   std::size_t count = 0;
-  double mean = 0.0;  ///< [m], as all below.
+  double mean = 0.0;  ///< [m], like all members below.
   double median = 0.0;
-  double p95 = 0.0;  ///< Linear between the ranks around it, as NumPy's default.
+  double p95 = 0.0;  ///< Linear interpolation between ranks, as NumPy's default.
   double max = 0.0;
   double min = 0.0;
 };
 
-/// The value below which `fraction` of the values lie, linear between the ranks around it, as
-/// NumPy's default. `rising` must be sorted and not be empty.
+/// The quantile below which `fraction` of the values are, with linear interpolation between ranks,
+/// as NumPy's default. `rising` must be sorted in ascending order and not be empty.
 double quantile(const std::vector<double>& rising, double fraction);
 
-/// None where `errors_m` is empty.
+/// Statistics of `errors_m`; none if it is empty.
 std::optional<ErrorStatistics> statistics(std::vector<double> errors_m);
 
-/// Error of the believed antenna pose, where it is not the true one.
+/// Error of the believed antenna pose, if it is not the true one.
 struct PoseErrorSummary {
   double sigma_m = 0.0;  ///< As stated in the scenario, per axis.
   double time_constant_s = 0.0;
   double yaw_sigma_rad = 0.0;
-  double position_rms_m = 0.0;  ///< Of the antenna in this run, horizontally, as it came out.
-  /// Tags located from the same reads with the true poses, for comparison.
+  double position_rms_m = 0.0;  ///< Actual horizontal error of the antenna in this run.
+  /// Errors of localization from the same reads with the true poses, for comparison.
   std::optional<ErrorStatistics> error_with_true_pose_m;
-  /// As position_rms_m, after localization corrected the poses; none where it did not.
+  /// As position_rms_m, after localization corrected the poses; none if it did not.
   std::optional<double> corrected_rms_m{};
 };
 
 /// The same reads located with other poses, for comparison.
 struct ComparedPose {
-  std::string pose;  ///< What they are, in the words of Summary::pose.
-  /// Between these and the poses of the run [m], horizontally.
+  std::string pose;  ///< Their kind, as in Summary::pose.
+  /// Horizontal distance between these and the poses of the run [m].
   double position_rms_m = 0.0;
-  std::optional<ErrorStatistics> error_m;  ///< Of the tags that they locate.
+  std::optional<ErrorStatistics> error_m;  ///< Of the tags located with them.
   std::size_t located = 0;
 };
 
-/// What a method makes of the reads of all seeds.
+/// Results of a method for the reads of all seeds.
 struct MethodSummary {
   std::string method;
   std::size_t located = 0;
   std::size_t ambiguous = 0;
   std::size_t not_located = 0;
   std::optional<ErrorStatistics> error_m;
-  /// See aligned_errors(); none where the pose is the true one.
+  /// See aligned_errors(); none if the pose is the true one.
   std::optional<ErrorStatistics> aligned_error_m;
 };
 
-/// How robots found out where they are, over all seeds.
+/// How robots found their poses, over all seeds.
 struct FindingSummary {
-  std::size_t count = 0;                   ///< Times that they had to.
-  std::size_t noticed = 0;                 ///< Of these, times that they knew that they don't know.
-  std::size_t found = 0;                   ///< Of all, those that ended with the right place.
-  std::size_t wrong = 0;                   ///< Times that they took another place for theirs.
-  std::optional<ErrorStatistics> seconds;  ///< [s], of those found.
-  std::optional<ErrorStatistics> driven_m;  ///< Likewise.
+  std::size_t count = 0;    ///< Number of times that they had to.
+  std::size_t noticed = 0;  ///< Of these, times that they noticed that they don't know.
+  std::size_t found = 0;    ///< Of all, those that ended with the right pose.
+  std::size_t wrong = 0;    ///< Number of times that they believed in a wrong pose.
+  std::optional<ErrorStatistics> seconds;   ///< [s], of those found.
+  std::optional<ErrorStatistics> driven_m;  ///< [m], of those found.
 };
 
 /// A goal that was not reached.
@@ -171,66 +173,66 @@ struct UnreachedGoal {
   std::string reason;
 };
 
-/// How robots found their way by laser, map and wheels. Of several seeds the worst, where it does
-/// not say otherwise.
+/// Results of robot navigation by laser, map and odometry. The worst of several seeds, unless
+/// stated otherwise.
 struct NavigationSummary {
-  /// Of the walls that a laser can see, the share of cells with a mapped one within one cell.
+  /// Share of the cells of walls visible to a laser that have a mapped one within one cell.
   double walls_found = 0.0;
-  double walls_false = 0.0;     ///< Of the mapped walls' cells, those with no true one within two.
-  double walls_double = 0.0;    ///< Of the walls' cells, those that were mapped twice.
-  double floor_known = 0.0;     ///< Of the free cells that can be reached.
-  double mapping_path_m = 0.0;  ///< Of the first seed; 0 where the map was given.
+  double walls_false = 0.0;     ///< Share of mapped walls' cells with no true one within two.
+  double walls_double = 0.0;    ///< Share of the walls' cells that were mapped twice.
+  double floor_known = 0.0;     ///< Share of the reachable free cells.
+  double mapping_path_m = 0.0;  ///< Of the first seed; 0 if the map was given.
   double mapping_s = 0.0;       ///< Simulated, of the first seed.
-  std::optional<ErrorStatistics> position_error_m;  ///< Of the belief, at 10 Hz, over all seeds.
+  std::optional<ErrorStatistics> position_error_m;  ///< Of the belief at 10 Hz, all seeds.
   std::optional<ErrorStatistics> yaw_error_rad;
   std::size_t goals = 0;  ///< Over all seeds.
   std::size_t goals_reached = 0;
   std::vector<UnreachedGoal> goals_unreached;
-  double closest_m = 0.0;      ///< Between a robot's outline and anything.
-  std::size_t collisions = 0;  ///< Times that it came to touch anything, over all seeds.
+  double closest_m = 0.0;      ///< Minimum distance between a robot's outline and anything.
+  std::size_t collisions = 0;  ///< Number of contacts with anything, over all seeds.
   std::size_t times_lost = 0;  ///< Over all seeds.
-  // None where it did not happen.
+  // None if it did not happen.
   std::optional<FindingSummary> unknown_starts;
   std::optional<FindingSummary> carried;
-  std::optional<FindingSummary> lost;  ///< By themselves.
+  std::optional<FindingSummary> lost;  ///< Losses without being carried.
 };
 
-/// Which effects of the physical models were on.
+/// Which effects of the physical models were enabled.
 enum class EffectSet { kNone, kAlone, kAllButThis, kAll };
 
-/// What came of the experiment with a choice of effects.
+/// The result of the experiment with a selection of effects.
 struct EffectCost {
-  std::string effect;  ///< For people; "" for none and all.
+  std::string effect;  ///< Human-readable; "" for none and all.
   EffectSet set = EffectSet::kNone;
-  std::size_t tags = 0;  ///< Over all seeds, as all below.
+  std::size_t tags = 0;  ///< Over all seeds, like all members below.
   std::size_t located = 0;
   std::size_t reads = 0;
   std::optional<ErrorStatistics> error_m;  ///< Of the located ones.
 };
 
-/// Everything that a page needs besides the files in the run's folder.
+/// Everything that a page needs in addition to the files in the run's folder.
 struct Summary {
   std::string scenario;              ///< Name.
-  std::string description;           ///< One line of the scenario, or "".
-  std::vector<std::uint64_t> seeds;  ///< Empty where reads came from outside.
-  std::string method;                ///< That was used: "hyperbola".
-  std::string method_asked;          ///< "auto" where that chose `method`, else the same.
-  std::string method_why;            ///< Why it was chosen; "" where it was asked for.
-  /// What the believed pose is: "true", "noisy", "odometry", "tf" (transforms), "given".
+  std::string description;           ///< One line from the scenario, or "".
+  std::vector<std::uint64_t> seeds;  ///< Empty if the reads are external.
+  std::string method;                ///< The method used: "hyperbola".
+  std::string method_asked;          ///< "auto" if that chose `method`, else the same.
+  std::string method_why;            ///< Why it was chosen; "" if it was requested.
+  /// The kind of believed pose: "true", "noisy", "odometry", "tf" (transforms), "given".
   std::string pose;
-  bool complete = true;  ///< False where the run was interrupted.
+  bool complete = true;  ///< False if the run was interrupted.
   double path_length_m = 0.0;
   std::size_t reads = 0;     ///< Of the first seed.
   double simulated_s = 0.0;  ///< Of the first seed.
-  double wall_s = 0.0;       ///< Simulation and localization of all seeds, files and page excepted.
-  double real_time_factor = 0.0;  ///< Simulated time of all seeds, mapping too, over wall_s.
+  double wall_s = 0.0;       ///< Simulation and localization of all seeds, without file output.
+  double real_time_factor = 0.0;  ///< Simulated time of all seeds, including mapping, over wall_s.
   std::optional<PoseErrorSummary> pose_error;
   std::optional<ComparedPose> compared_pose;
-  /// The method of the run and others; empty where none were compared.
+  /// The method of the run and others; empty if none were compared.
   std::vector<MethodSummary> compared_methods;
   std::optional<NavigationSummary> navigation;
   std::optional<InventorySummary> inventory;
-  std::vector<EffectCost> effects;  ///< Empty where they were not told apart.
+  std::vector<EffectCost> effects;  ///< Empty if no breakdown was requested.
   std::vector<TagOutcome> tags;     ///< By seed, then by ID.
   std::vector<std::string> warnings;
 };
@@ -238,27 +240,28 @@ struct Summary {
 /// "none", "alone", "all_but_this", "all".
 std::string to_string(EffectSet set);
 
-/// How many reads there are of each tag.
+/// Number of reads of each tag.
 std::map<std::string, std::size_t> count_by_tag(const std::vector<TagRead>& reads);
 
 /// Root mean square of the horizontal distance between poses of the same antenna at the same time
-/// [m]: of those in `a` with the interpolated ones of `b`, which must be in order of time. Antennas
-/// with a single pose in `b` stand still and don't count. None where none does.
+/// [m]: of those in `a` with the interpolated ones of `b`, which must be in chronological order.
+/// Antennas with a single pose in `b` are stationary and don't count. None if no poses can be
+/// compared.
 std::optional<double> position_rms(const std::vector<AntennaPose>& a,
                                    const std::vector<AntennaPose>& b);
 
-/// Errors of all located tags, over all seeds, rising [m].
+/// Errors of all located tags, over all seeds, ascending [m].
 std::vector<double> all_errors(const Summary& summary);
 std::optional<ErrorStatistics> error_statistics(const Summary& summary);
 
-/// Outcomes with this verdict, over all seeds. Reference tags don't count: their positions were
-/// given.
+/// Number of outcomes with this verdict, over all seeds, without reference tags, whose positions
+/// were given.
 std::size_t count(const Summary& summary, Verdict verdict);
 
-/// Outcomes of tags that are no reference tags, over all seeds.
+/// Number of outcomes of tags other than reference tags, over all seeds.
 std::size_t count_to_locate(const Summary& summary);
 
-/// How many located tags are further off than `limit_m`.
+/// Number of located tags with an error above `limit_m`.
 std::size_t count_over(const Summary& summary, double limit_m);
 
 /// summary.json: scenario, description, seeds, method, method_asked, method_why, pose, complete,
@@ -268,19 +271,19 @@ std::size_t count_over(const Summary& summary, double limit_m);
 /// seed, verdict, reason, truth_m, moved, estimate_m, error_m, rms_m, expected_error_m,
 /// candidates_m, candidates_rms_m, candidates_expected_error_m, reads, reads_used, reference}],
 /// error_m: {mean, median, p95, max, min, count}, over_0_3_m, located, ambiguous, not_located,
-/// warnings. What is unknown or not finite is null. `estimate_m` is null unless the tag is located;
-/// `rms_m` and `expected_error_m` are the best candidate's, and the three lists of candidates are
-/// equally long. Bytes that are not UTF-8 become U+FFFD.
+/// warnings. Values that are unknown or not finite are null. `estimate_m` is null unless the tag is
+/// located; `rms_m` and `expected_error_m` are the best candidate's, and the three lists of
+/// candidates have the same length. Bytes that are not UTF-8 become U+FFFD.
 std::string to_json(const Summary& summary);
 
-/// The inventory by itself, as it stands in there.
+/// The inventory alone, in the same format.
 std::string to_json(const InventorySummary& inventory);
-/// The same back. Throws Error naming `file` and the member that is missing or wrong.
+/// Inverse of that. Throws Error naming `file` and the member that is missing or wrong.
 InventorySummary inventory_from_json(const std::string& text, const std::string& file);
 
-/// Inverse of to_json; what follows from the rest (errors, counts) is not read, and a figure that
-/// is null reads as 0. Throws Error "FILE: tags[3].moved is null, expected true or false", on one
-/// line, on text that is not such a summary.
+/// Inverse of to_json; derived values (errors, counts) are not read, and a number that is null is
+/// read as 0. Throws Error "FILE: tags[3].moved is null, expected true or false", on one line, on
+/// text that is not such a summary.
 Summary summary_from_json(const std::string& text, const std::string& file);
 
 }  // namespace tagfield

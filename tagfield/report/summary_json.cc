@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kFarOffM = 0.3;  ///< [m]
 
-// What structs have in the file, by name, in the file's order. It is written and read by these.
+// Members of structs in the file, by name, in the file's order, for both writing and reading.
 
 constexpr auto fields(const ErrorStatistics* /*of*/) {
   using S = ErrorStatistics;
@@ -136,7 +136,7 @@ constexpr auto fields(const EffectCost* /*of*/) {
                     std::pair("reads", &S::reads), std::pair("error_m", &S::error_m));
 }
 
-/// Of the run; tags and warnings follow what is counted of them.
+/// Members of a run; tags and warnings follow after their counts.
 constexpr auto fields(const Summary* /*of*/) {
   using S = Summary;
   return std::tuple(
@@ -229,7 +229,7 @@ Json tag_json(const TagOutcome& outcome) {
   return json;
 }
 
-EffectSet effect_set_at(const JsonPlace& place) {
+EffectSet effect_set_at(const JsonLocation& place) {
   const std::string word = text_at(place);
   for (const EffectSet set :
        {EffectSet::kNone, EffectSet::kAlone, EffectSet::kAllButThis, EffectSet::kAll}) {
@@ -238,39 +238,39 @@ EffectSet effect_set_at(const JsonPlace& place) {
   fail_at(place, "is '" + word + "', expected none, alone, all_but_this or all");
 }
 
-void take(const JsonPlace& place, bool& value) { value = truth_at(place); }
-void take(const JsonPlace& place, std::uint64_t& value) { value = whole_at(place); }
-/// Null, that is unknown, reads as 0.
-void take(const JsonPlace& place, double& value) {
+void take(const JsonLocation& place, bool& value) { value = truth_at(place); }
+void take(const JsonLocation& place, std::uint64_t& value) { value = whole_at(place); }
+/// Null, which means unknown, is read as 0.
+void take(const JsonLocation& place, double& value) {
   value = is_null(place) ? 0.0 : number_at(place);
 }
-void take(const JsonPlace& place, std::string& value) { value = text_at(place); }
-void take(const JsonPlace& place, EffectSet& value) { value = effect_set_at(place); }
-void take(const JsonPlace& place, Eigen::Vector3d& value) { value = point_at(place); }
+void take(const JsonLocation& place, std::string& value) { value = text_at(place); }
+void take(const JsonLocation& place, EffectSet& value) { value = effect_set_at(place); }
+void take(const JsonLocation& place, Eigen::Vector3d& value) { value = point_at(place); }
 template <Struct Value>
-void take(const JsonPlace& place, Value& value);
+void take(const JsonLocation& place, Value& value);
 template <class Value>
-void take(const JsonPlace& place, std::vector<Value>& values);
+void take(const JsonLocation& place, std::vector<Value>& values);
 
 template <class Value>
-void take(const JsonPlace& place, std::optional<Value>& value) {
+void take(const JsonLocation& place, std::optional<Value>& value) {
   if (!is_null(place)) take(place, value.emplace());
 }
 
 template <class Value>
-void take(const JsonPlace& place, std::vector<Value>& values) {
-  for (const JsonPlace& element : elements(place)) take(element, values.emplace_back());
+void take(const JsonLocation& place, std::vector<Value>& values) {
+  for (const JsonLocation& element : elements(place)) take(element, values.emplace_back());
 }
 
 template <Struct Value>
-void take(const JsonPlace& place, Value& value) {
+void take(const JsonLocation& place, Value& value) {
   const auto take_all = [&](const auto&... field) {
     (take(member(place, field.first), value.*field.second), ...);
   };
   std::apply(take_all, fields(&value));
 }
 
-Verdict verdict_at(const JsonPlace& place) {
+Verdict verdict_at(const JsonLocation& place) {
   const std::string word = text_at(place);
   try {
     return verdict_from_string(word);
@@ -279,7 +279,7 @@ Verdict verdict_at(const JsonPlace& place) {
   }
 }
 
-std::vector<Candidate> candidates_at(const JsonPlace& tag) {
+std::vector<Candidate> candidates_at(const JsonLocation& tag) {
   const auto points = elements(member(tag, "candidates_m"));
   const auto misfits = elements(member(tag, "candidates_rms_m"));
   const auto expected = elements(member(tag, "candidates_expected_error_m"));
@@ -296,7 +296,7 @@ std::vector<Candidate> candidates_at(const JsonPlace& tag) {
   return candidates;
 }
 
-TagOutcome tag_at(const JsonPlace& place) {
+TagOutcome tag_at(const JsonLocation& place) {
   TagOutcome outcome;
   outcome.seed = whole_at(member(place, "seed"));
   outcome.estimate.tag = text_at(member(place, "id"));
@@ -338,16 +338,16 @@ std::string to_json(const InventorySummary& inventory) {
 InventorySummary inventory_from_json(const std::string& text, const std::string& file) {
   const nlohmann::json json = parsed_json(text, file);
   InventorySummary inventory;
-  take(JsonPlace{&json, file, ""}, inventory);
+  take(JsonLocation{&json, file, ""}, inventory);
   return inventory;
 }
 
 Summary summary_from_json(const std::string& text, const std::string& file) {
   const nlohmann::json json = parsed_json(text, file);
-  const JsonPlace top{&json, file, ""};
+  const JsonLocation top{&json, file, ""};
   Summary summary;
   take(top, summary);
-  for (const JsonPlace& tag : elements(member(top, "tags"))) summary.tags.push_back(tag_at(tag));
+  for (const JsonLocation& tag : elements(member(top, "tags"))) summary.tags.push_back(tag_at(tag));
   take(member(top, "warnings"), summary.warnings);
   return summary;
 }

@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-/// One element without content but its tooltip.
+/// Adds one element without content except its tooltip.
 void add_element(Svg& svg, const std::string& opening, const Look& look,
                  const std::string& tooltip) {
   svg.body += fmt::format("<{} {}", opening, look.attributes);
@@ -94,7 +94,7 @@ void add_text(Svg& svg, const Place& place, const std::string& text, Anchor anch
 }
 
 void add_rimmed_text(Svg& svg, const Place& place, const std::string& text, Anchor anchor) {
-  // Two elements, since not every reader of SVG knows paint-order.
+  // Two elements, since not every SVG viewer supports paint-order.
   add_text(svg, place, text, anchor, "rim");
   add_text(svg, place, text, anchor);
 }

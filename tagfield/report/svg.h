@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A small writer of SVG drawings. Lengths are in units of the drawing, x to the right, y down.
+/// A small SVG writer. Lengths are in units of the drawing, x to the right, y down.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,10 +11,10 @@
 
 namespace tagfield {
 
-inline constexpr double kDrawingWidth = 560.0;  ///< Of every figure: a phone shows it at 2:3.
+inline constexpr double kDrawingWidth = 560.0;  ///< Of all figures: scaled by 2/3 on a phone.
 inline constexpr double kFontSize = 15.0;       ///< Of all text: 9.6 px on a phone.
 
-/// A drawing under way: a list of elements.
+/// A drawing under construction: a list of elements.
 struct Svg {
   double height = 0.0;
   std::string body;
@@ -22,7 +22,7 @@ struct Svg {
 
 using Place = Eigen::Vector2d;
 
-/// How an element looks, as attributes: a class of the style sheet, or a colour of its own.
+/// The look of an element, as attributes: a class of the style sheet, or a colour of its own.
 struct Look {
   std::string attributes;
 };
@@ -49,9 +49,9 @@ enum class Anchor { kStart, kMiddle, kEnd };
 /// `place` is on the baseline. `text` is escaped here.
 void add_text(Svg& svg, const Place& place, const std::string& text, Anchor anchor,
               const std::string& css_class = "");
-/// Text that stays readable over other things, by a rim in the colour of the paper.
+/// Text that is readable over other elements, with a rim in the background colour.
 void add_rimmed_text(Svg& svg, const Place& place, const std::string& text, Anchor anchor);
-/// Rough width of a text, by its number of characters.
+/// Approximate width of a text, from its number of characters.
 double text_width(const std::string& text);
 
 void add_diamond(Svg& svg, const Place& center, double radius, const Look& look,
@@ -59,20 +59,20 @@ void add_diamond(Svg& svg, const Place& center, double radius, const Look& look,
 void add_cross(Svg& svg, const Place& center, double radius, const Look& look,
                const std::string& tooltip = "");
 
-/// All that is added between the two shows only within a rectangle; `id` must be unique on the
+/// Everything added between these two calls is clipped to a rectangle; `id` must be unique on the
 /// page.
 void begin_clip(Svg& svg, const std::string& id, const Place& corner, const Place& size);
 void end_clip(Svg& svg);
 
-/// All that is added between the two is in one element that has `attributes`.
+/// Everything added between these two calls is in one group with `attributes`.
 void begin_group(Svg& svg, const std::string& attributes);
 void end_group(Svg& svg);
 
-/// As a part of an HTML page, whose style sheet it wears; `label` says what it shows to those who
-/// can't see it.
+/// The drawing as a part of an HTML page, with its style sheet; `label` describes it for screen
+/// readers.
 std::string inline_svg(const Svg& svg, const std::string& label);
 
-/// As a file of its own, with its own style (light, no background).
+/// The drawing as a standalone file, with its own style (light, no background).
 std::string standalone_svg(const Svg& svg, const std::string& title,
                            const std::string& description);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-/// Bytes of the UTF-8 sequence that `lead` opens; 0 where it opens none.
+/// Length of the UTF-8 sequence that begins with `lead`; 0 if none does.
 std::size_t sequence_size(unsigned char lead) {
   if (lead < 0x80) return 1;
   if (lead >= 0xC2 && lead < 0xE0) return 2;
@@ -32,8 +32,8 @@ char32_t code_point(std::string_view sequence) {
 
 bool continues(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
 
-/// Neither overlong, nor a surrogate, nor beyond Unicode, nor barred from XML, nor one of the
-/// marks that turn the direction of the text after them.
+/// Whether the character is not overlong, a surrogate, beyond Unicode, forbidden in XML, or one of
+/// the marks that change the text direction.
 bool is_harmless(char32_t code, std::size_t size) {
   constexpr char32_t kLeast[] = {0, 0x20, 0x80, 0x800, 0x10000};
   const bool control = code == 0x7F || (code >= 0x80 && code < 0xA0);
@@ -70,7 +70,7 @@ std::string_view entity(char character) {
   }
 }
 
-/// Where the character number `index` of well-formed UTF-8 begins.
+/// Byte offset of the character with this index in well-formed UTF-8.
 std::size_t offset_of(std::string_view text, std::size_t index) {
   std::size_t offset = 0;
   for (; index > 0; --index) offset += sequence_size(static_cast<unsigned char>(text[offset]));
@@ -81,7 +81,7 @@ unsigned char byte_of(char character) { return static_cast<unsigned char>(charac
 
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
 
-/// The digits at the front, without leading zeros; takes them off `text`.
+/// Removes the digits at the front of `text` and returns them without leading zeros.
 std::string_view take_number(std::string_view& text) {
   const auto end = std::find_if_not(text.begin(), text.end(), is_digit);
   std::string_view digits = text.substr(0, static_cast<std::size_t>(end - text.begin()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Text for page and figures: made harmless, shortened, sorted and set as a person reads it.
+/// Text for page and figures: sanitized, shortened, sorted and formatted for human readers.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@
 
 namespace tagfield {
 
-/// Well-formed UTF-8 without control characters: what is not becomes U+FFFD, tabs and line ends
-/// become spaces.
+/// `text` as well-formed UTF-8 without control characters: invalid parts become U+FFFD, tabs and
+/// line breaks become spaces.
 std::string clean_text(std::string_view text);
 
 /// `text`, cleaned, with & < > " ' written as entities: safe as content and as a quoted attribute
 /// of both HTML and XML.
 std::string escaped(std::string_view text);
 
-/// The same for a name in a heading: lines may break after "_", "-", "/" and ".".
+/// Same, but for a name in a heading: lines may break after "_", "-", "/" and ".".
 std::string breakable(std::string_view text);
 
 /// `text`, cleaned, of at most `most` ≥ 3 characters: the middle of a longer one becomes "…".
@@ -26,10 +26,10 @@ std::string shortened(std::string_view text, std::size_t most);
 /// Number of characters (code points) in well-formed UTF-8.
 std::size_t length_of(std::string_view text);
 
-/// Order of names as a person counts them: tag2 before tag10.
+/// Natural order of names: tag2 before tag10.
 bool natural_less(std::string_view a, std::string_view b);
 
-/// "3.2 mm", "15 mm", "1.23 m" of a length ≥ 0 [m].
+/// "3.2 mm", "15 mm", "1.23 m" for a length ≥ 0 [m].
 std::string spoken_length(double length_m);
 
 /// "7,012".

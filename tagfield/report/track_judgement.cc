@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::map<std::string, Trajectory> true_places(const Truth& truth) {
+std::map<std::string, Trajectory> true_positions(const Truth& truth) {
   std::map<std::string, Trajectory> places;
   for (const TagPosition& row : truth.tag_positions) {
     Trajectory& of_tag = places[row.tag];
@@ -24,7 +24,7 @@ std::map<std::string, Trajectory> true_places(const Truth& truth) {
   return places;
 }
 
-/// Velocity between the rows around a stamp [m/s].
+/// Velocity between the rows around a timestamp [m/s].
 Eigen::Vector3d true_velocity(const Trajectory& places, Time stamp) {
   if (places.size() < 2) return Eigen::Vector3d::Zero();
   auto after =
@@ -88,7 +88,7 @@ Json order_json(const OrderOutcome& order) {
 
 std::vector<TrackOutcome> judge_tracks(std::uint64_t seed, const std::vector<TagTrack>& tracks,
                                        const Truth& truth) {
-  const std::map<std::string, Trajectory> places = true_places(truth);
+  const std::map<std::string, Trajectory> places = true_positions(truth);
   std::vector<TrackOutcome> outcomes;
   for (const TagTrack& tag : tracks) {
     TrackOutcome outcome;
@@ -113,7 +113,7 @@ std::vector<TrackOutcome> judge_tracks(std::uint64_t seed, const std::vector<Tag
 
 std::vector<TagTrack> true_tracks(const Truth& truth) {
   std::vector<TagTrack> tracks;
-  for (const auto& [tag, places] : true_places(truth)) {
+  for (const auto& [tag, places] : true_positions(truth)) {
     if (places.size() < 2) continue;
     Track track;
     for (const StampedPose& pose : places) {
@@ -236,9 +236,9 @@ TrackNumbers numbers_of(const TrackSummary& summary) {
 
 TrackNumbers track_numbers_from_json(const std::string& text, const std::string& file) {
   const nlohmann::json json = parsed_json(text, file);
-  const JsonPlace top{&json, file, ""};
+  const JsonLocation top{&json, file, ""};
   const auto mean_of = [&](const char* key) -> std::optional<double> {
-    const JsonPlace place = member(top, key);
+    const JsonLocation place = member(top, key);
     if (is_null(place)) return std::nullopt;
     return number_at(member(place, "mean"));
   };
@@ -248,7 +248,7 @@ TrackNumbers track_numbers_from_json(const std::string& text, const std::string&
   numbers.not_tracked = whole_at(member(top, "not_tracked"));
   numbers.along_m = mean_of("along_m");
   numbers.across_m = mean_of("across_m");
-  for (const JsonPlace& order : elements(member(top, "orders"))) {
+  for (const JsonLocation& order : elements(member(top, "orders"))) {
     numbers.orders.push_back({text_at(member(order, "passed")), whole_at(member(order, "pairs")),
                               whole_at(member(order, "right"))});
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tracks judged against where the tags truly were: the numbers, and their JSON.
+/// Tracks compared with the true positions of tags: the statistics, and their JSON.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace tagfield {
 
-/// One tag's likeliest track in one run, beside the truth where that is known.
+/// One tag's likeliest track in one run, compared with the truth if that is known.
 struct TrackOutcome {
   std::uint64_t seed = 0;
   std::string tag;
@@ -22,15 +22,15 @@ struct TrackOutcome {
   std::string reason;
   std::size_t reads = 0;
   double expected_error_m = 0.0;
-  // At each stamp of the track, absolute values; empty without a truth.
+  // At each timestamp of the track, absolute values; empty without a truth.
   std::vector<double> along_m;    ///< Along the true direction.
-  std::vector<double> across_m;   ///< Level, across it.
+  std::vector<double> across_m;   ///< Horizontally across it.
   std::vector<double> speed_m_s;  ///< Of the speed.
-  /// eᵀ P⁻¹ e / 2 of the level place halfway: 1 in the mean where covariances are honest.
+  /// eᵀ P⁻¹ e / 2 of the horizontal position halfway: 1 on average if covariances are right.
   std::optional<double> nees;
 };
 
-/// How often two tags that truly passed one after the other were found in this order.
+/// How often two tags that truly passed in succession were found in this order.
 struct OrderOutcome {
   std::string name;
   std::size_t pairs = 0;
@@ -46,14 +46,16 @@ struct TrackSummary {
   std::vector<std::string> warnings;
 };
 
-/// `truth` may be empty.
+/// The outcome of each track; `truth` may be empty.
 std::vector<TrackOutcome> judge_tracks(std::uint64_t seed, const std::vector<TagTrack>& tracks,
                                        const Truth& truth);
 
-/// The tags' true tracks, straight between the rows of the truth, as if tracked without error.
+/// The tags' true tracks, interpolated linearly between the rows of the truth, as if tracked
+/// without error.
 std::vector<TagTrack> true_tracks(const Truth& truth);
 
-/// Neighbours in the true order, of those that both orders hold, by the orders' names.
+/// Compares neighbours in the true order, among the tags that are in both orders, by the orders'
+/// names.
 std::vector<OrderOutcome> judge_orders(const std::vector<PassingOrder>& found,
                                        const std::vector<PassingOrder>& truth);
 
@@ -71,7 +73,7 @@ std::optional<double> mean_nees(const TrackSummary& summary);
 
 std::string to_json(const TrackSummary& summary);
 
-/// What a page says of tracks in a sentence. Errors are means over all tracked tags [m].
+/// Numbers for a page's sentence about tracks. Errors are means over all tracked tags [m].
 struct TrackNumbers {
   std::size_t tracked = 0;
   std::size_t ambiguous = 0;
@@ -83,7 +85,7 @@ struct TrackNumbers {
 
 TrackNumbers numbers_of(const TrackSummary& summary);
 
-/// The same from tracks.json. Throws Error naming the file and the place in it.
+/// The same numbers from tracks.json. Throws Error naming the file and the location in it.
 TrackNumbers track_numbers_from_json(const std::string& text, const std::string& file);
 
 }  // namespace tagfield

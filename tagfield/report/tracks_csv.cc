@@ -21,7 +21,7 @@ std::string row_of(const std::string& tag, std::size_t number, const TrackPoint&
   return row + fmt::format(",{:.9f}\n", point.covariance(0, 1));
 }
 
-/// Speed [m/s] and heading [deg] in the level plane, each with its standard deviation.
+/// Horizontal speed [m/s] and heading [deg], each with its standard deviation.
 std::string motion_of(const TrackPoint& point) {
   const Eigen::Vector2d v = point.v_WT.head<2>();
   const double speed = v.norm();

@@ -46,7 +46,7 @@ Bounds bounds_of(const std::vector<TagTrack>& tracks, const std::vector<AntennaP
   return box;
 }
 
-/// True places by tag, only of the time in which the tag was tracked.
+/// True positions by tag, only during the time in which the tag was tracked.
 std::map<std::string, std::vector<Place>> true_ways(const std::vector<TagTrack>& tracks,
                                                     const Truth& truth, const Axes& axes) {
   std::map<std::string, std::pair<Time, Time>> spans;
@@ -65,14 +65,14 @@ std::map<std::string, std::vector<Place>> true_ways(const std::vector<TagTrack>&
   return ways;
 }
 
-constexpr std::size_t kMostSpeeds = 12;  ///< That get a colour and a name.
+constexpr std::size_t kMostSpeeds = 12;  ///< Tags with their own colours and names.
 
 const std::vector<TrackPoint>* points_of(const TagTrack& tag) {
   if (tag.tracks.empty() || tag.tracks.front().points.empty()) return nullptr;
   return &tag.tracks.front().points;
 }
 
-/// So that all tracks together come to about as many points as a figure holds.
+/// The step by which all tracks are thinned to about 2 kMostMarks points in total.
 std::size_t thinning_of(const std::vector<TagTrack>& tracks) {
   std::size_t count = 0;
   for (const TagTrack& tag : tracks) {
@@ -202,7 +202,7 @@ Figure speeds_figure(const std::vector<TagTrack>& tracks) {
   const double top = named ? draw_legend(svg, legend) : 0.0;
   const auto [first, last] = std::minmax_element(times.begin(), times.end());
   const auto [slowest, fastest] = std::minmax_element(speeds.begin(), speeds.end());
-  const double margin = std::max(0.02 * *fastest, 1e-3);  // Noise alone should not fill it.
+  const double margin = std::max(0.02 * *fastest, 1e-3);  // Noise alone should not fill the axis.
   Axes axes{tight_scale(*first, std::max(*last, *first + 1e-3), 6),
             round_scale(std::max(*slowest - margin, 0.0), *fastest + margin, 5)};
   axes.x.from = 58.0;

@@ -11,12 +11,12 @@
 
 namespace tagfield {
 
-/// From above: the likeliest track of each tag, its true path where that is known, the antennas.
+/// From above: the likeliest track of each tag, its true path if known, and the antennas.
 Figure tracks_figure(const std::vector<TagTrack>& tracks, const std::vector<AntennaPose>& antennas,
                      const Truth& truth);
 
-/// The level speed of each tag's likeliest track over time; a colour and an entry of the legend for
-/// each where they are few.
+/// The horizontal speed of each tag's likeliest track over time; for a few tags with individual
+/// colours and legend entries.
 Figure speeds_figure(const std::vector<TagTrack>& tracks);
 
 }  // namespace tagfield

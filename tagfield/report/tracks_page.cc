@@ -32,7 +32,7 @@ std::string tracks_number(const std::string& name, const std::string& value, boo
                      escaped(name), escaped(value));
 }
 
-/// Level speed halfway [m/s]; none of a tag without a track.
+/// Horizontal velocity halfway [m/s]; none for a tag without a track.
 std::optional<Eigen::Vector2d> velocity_of(const TagTrack& tag) {
   if (tag.tracks.empty() || tag.tracks.front().points.empty()) return std::nullopt;
   const std::vector<TrackPoint>& points = tag.tracks.front().points;
@@ -146,7 +146,7 @@ std::string tracks_left_out(const TracksShown& shown) {
       grouped(shown.tracks->size()), grouped(shown.tag_count));
 }
 
-/// Of the first seed: its outcomes come first, in the order of its tracks.
+/// The table of the first seed, whose outcomes come first, in the order of its tracks.
 std::string tracks_table(const TracksShown& shown) {
   const std::vector<TagTrack>& tracks = *shown.tracks;
   if (tracks.empty()) return "<p>No tag was read.</p>\n";

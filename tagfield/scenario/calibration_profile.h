@@ -11,7 +11,7 @@
 
 namespace tagfield {
 
-/// Reads what to_yaml(Calibration) wrote, or a person. Throws Error "FILE:LINE: …".
+/// Reads a calibration written by to_yaml(Calibration) or by hand. Throws Error "FILE:LINE: …".
 Calibration read_calibration(const std::string& path);
 
 }  // namespace tagfield

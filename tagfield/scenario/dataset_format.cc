@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-/// A column by its name, or by its number where there is no header.
+/// A column by name, or by number if there is no header.
 std::string column_of(YamlMap& map, const std::string& key = "column") {
   return map.at(key).text();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Forms of other people's tables as YAML files, profiles/datasets/NAME.yaml. docs/datasets.md has
+/// Formats of third-party tables as YAML files, profiles/datasets/NAME.yaml. docs/datasets.md has
 /// the keys.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace tagfield {
 
-/// Throws Error "FILE:LINE: …" if the file can't be read or says what makes no sense.
+/// Throws Error "FILE:LINE: …" if the file can't be read or is inconsistent.
 DatasetForm read_dataset_form(const std::string& path);
 
 }  // namespace tagfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How a robot finds its way by itself, as a plain struct.
+/// How a robot navigates by itself, as a plain struct.
 #pragma once
 
 #include <string>
@@ -13,19 +13,19 @@
 
 namespace tagfield {
 
-/// What a robot that drives by itself is told of where it begins.
+/// What a robot that drives by itself knows about its start pose.
 enum class StartBelief {
-  kKnown,    ///< Where it is, to some centimetres.
+  kKnown,    ///< Its pose, to within a few centimetres.
   kUnknown,  ///< Nothing.
-  kRandom,   ///< Nothing, and it is put anywhere that it could have driven to, at each seed
-             ///< elsewhere.
+  kRandom,   ///< Nothing, and the start is drawn anew for each seed from all poses it could have
+             ///< driven to.
 };
 
 struct NavigationSpec {
   StartBelief start = StartBelief::kKnown;
-  std::string map;  ///< A map's YAML file to drive by; "" to make one first.
-  /// Whether what is too low for the laser to see, but not for the robot to hit, is known to the
-  /// driver from the world's file, as from a floor plan.
+  std::string map;  ///< YAML file of the map to navigate with; "" to make a map first.
+  /// Whether obstacles too low for the laser to see, but not too low to collide with, are known to
+  /// the driver from the world file, as from a floor plan.
   bool keep_out = true;
   LaserParameters laser;
   OdometryNoise odometry;
@@ -33,15 +33,16 @@ struct NavigationSpec {
   LocalizerSettings localizer;
   GoalDriverSettings driver;
   double mapping_speed_m_s = 0.5;
-  double mapping_limit_s = 1800.0;  ///< Simulated time after which mapping ends, whatever is left.
+  double mapping_limit_s = 1800.0;  ///< Simulated time after which mapping ends, complete or not.
 };
 
 struct Scenario;
 
-/// How the scenario's robots find their way.
+/// How the scenario's robots navigate.
 const NavigationSpec& navigation_of(const Scenario& scenario);
 
-/// Likewise, to be changed in this scenario and no copy of it. Holds until the next call.
+/// Same, but for modifying this scenario without affecting its copies. The reference is valid until
+/// the next call.
 NavigationSpec& own_navigation(Scenario& scenario);
 
 }  // namespace tagfield

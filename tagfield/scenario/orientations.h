@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How a tag may lie.
+/// Possible orientations of a tag.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,7 +8,8 @@
 
 namespace tagfield {
 
-/// Twelve rotations: the tag's face along each axis, and its wire upright and lying.
+/// Twelve rotations: the tag's normal along each direction of each axis, each with two orientations
+/// of its dipole.
 std::vector<Eigen::Quaterniond> orientations_along_axes();
 
 }  // namespace tagfield

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What `tagfield plan` is asked: where tags can be, where antennas can be, what is allowed and
-/// what is aimed at. docs/plan.md lists the keys.
+/// The input of `tagfield plan`: possible tag and antenna positions, limits, and the aim.
+/// docs/plan.md lists the keys.
 #pragma once
 
 #include <memory>
@@ -15,28 +15,28 @@ namespace tagfield {
 
 struct TagModel;
 
-/// Tags of one kind that can be anywhere among some places.
+/// Tags of one kind, each at any of a set of positions.
 struct PlanTags {
   std::string name;
   std::string zone;                       ///< "" for none.
   std::shared_ptr<const TagModel> model;  ///< Never null.
-  std::vector<RawParameter> settings;     ///< As they were written, for whoever writes them again.
-  /// Where they can be [m]: in the world, or on the pallet where there is a path.
+  std::vector<RawParameter> settings;     ///< As written in the file, for writing them back.
+  /// Possible positions [m]: in the world, or on the pallet if there is a path.
   std::vector<Eigen::Vector3d> places;
-  std::vector<Eigen::Quaterniond> orientations;  ///< Each as likely.
+  std::vector<Eigen::Quaterniond> orientations;  ///< Equally likely.
   Trajectory path;                               ///< Of the pallet; empty for tags at rest.
-  std::size_t count = 0;                         ///< Tags that there are at a time.
+  std::size_t count = 0;                         ///< Number of tags present at a time.
   Location location;
 };
 
-/// A place for an antenna, with the ways in which it can be mounted there, of which one is taken.
+/// A mounting position for an antenna, with its possible orientations, of which one is chosen.
 struct PlanMount {
   std::string name;
-  std::string zone;  ///< Of the reader that it is for; "" for any.
+  std::string zone;  ///< Zone of the reader that it is for; "" for any.
   std::vector<RigidTransform> X_WA;
-  std::vector<double> power_dbm;       ///< To choose from; at least one.
-  AntennaParameters antenna;           ///< Without names; always a physical one.
-  std::vector<RawParameter> settings;  ///< As they were written.
+  std::vector<double> power_dbm;       ///< Powers to choose from; at least one.
+  AntennaParameters antenna;           ///< Without names; always has a physical model.
+  std::vector<RawParameter> settings;  ///< As written in the file.
   std::vector<std::string> profiles;   ///< Files.
   double cost = 0.0;                   ///< Of the antenna with its cable and mounting.
   Location location;
@@ -48,23 +48,22 @@ struct PlanLimits {
   std::size_t ports = 4;  ///< Of each reader.
   double reader_cost = 0.0;
   std::optional<double> cost;   ///< Of all antennas and readers.
-  std::optional<double> cross;  ///< Most share of a zone's tags that other zones' readers read.
+  std::optional<double> cross;  ///< Maximum share of a zone's tags read by others' readers.
 };
 
-/// What is aimed at, for each tag: one of three.
+/// The aim for each tag, one of three.
 struct PlanAim {
-  /// Probability to be read, beyond which more is worth nothing.
+  /// Read probability above which more is worth nothing.
   double read_probability = 1.0;
-  /// Reads in the dwell time, beyond which more are worth nothing; at least 1.
+  /// Reads within the dwell time above which more are worth nothing; at least 1.
   std::optional<double> dwell_reads;
-  /// Bound on the error of its place in the plane, root mean square [m], below which less is worth
-  /// nothing.
+  /// Bound on the RMS position error in the plane [m] below which less is worth nothing.
   std::optional<double> position_error_m;
-  /// Of read_probability, the mean over all tags of what they have of it; else the share of tags
-  /// that have it, as forecast, that is enough: the layout that has it with the least is taken.
-  /// None: the best that the limits allow.
+  /// The share to reach: of read_probability, the mean over all tags of min(P, read_probability) /
+  /// read_probability; of the other aims, the forecast share of tags that attain them. The layout
+  /// that reaches it with the least is chosen. None: the best layout within the limits.
   std::optional<double> share;
-  /// Of what there is to be least of where the share is reached.
+  /// What to minimize once the share is reached.
   enum class Least { kAntennas, kCost };
   Least least = Least::kAntennas;
 };
@@ -74,8 +73,8 @@ struct PlanSpec {
   std::vector<PlanMount> mounts;
   PlanLimits limits;
   PlanAim aim;
-  double dwell_s = 10.0;   ///< That tags at rest are there to be read.
-  double margin_db = 0.0;  ///< That every link must have to spare.
+  double dwell_s = 10.0;   ///< Dwell time of stationary tags.
+  double margin_db = 0.0;  ///< Margin required of every link.
 };
 
 /// A scenario, its world, and its section `plan`.
@@ -84,9 +83,9 @@ struct ScenarioToPlan {
   PlanSpec plan;
 };
 
-/// Reads a scenario with a section `plan`; it needs no antennas and no tags of its own. Tags of its
-/// own that rest are a group "tags" of the plan's. `world_options` add to what the scenario says.
-/// Throws Error "FILE:LINE: …".
+/// Reads a scenario with a section `plan`; it needs no antennas and no tags of its own. Each of its
+/// own stationary tags is added as a group of one. `world_options` add to the scenario's. Throws
+/// Error "FILE:LINE: …".
 ScenarioToPlan load_scenario_to_plan(const std::string& path,
                                      const std::vector<Override>& overrides,
                                      Diagnostics& diagnostics,

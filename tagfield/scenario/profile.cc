@@ -21,7 +21,7 @@ const char* folder_of(ProfileKind kind) {
   return kFolders[static_cast<int>(kind)];
 }
 
-/// Beside the program, where that is installed, or as built, or as libraries were installed.
+/// Next to the installed program, in the source tree, or where the libraries were installed.
 fs::path profiles_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -30,7 +30,7 @@ fs::path profiles_folder() {
   for (fs::path place : {TAGFIELD_PROFILES, TAGFIELD_INSTALLED_PROFILES}) {
     if (fs::is_directory(place, error)) return place;
   }
-  return "/usr/share/tagfield/profiles";  // Of a package.
+  return "/usr/share/tagfield/profiles";  // As installed by a package.
 }
 
 std::vector<std::string> keys_of(ProfileKind kind) {

@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// A tag's rows. Those that repeat the place before are left out, so that a tag at rest has one
+/// A tag's rows, without those that repeat the previous position, so that a stationary tag has one
 /// row.
 struct RecordedTag {
   std::string id;
@@ -26,7 +26,7 @@ void add_row(RecordedTag& tag, const StampedPose& pose) {
   }
 }
 
-/// In the order in which they appear.
+/// In order of first occurrence.
 std::vector<RecordedTag> read_recorded_tags(const std::string& path) {
   const CsvTable table = read_csv(path);
   const std::size_t stamp = table.column("stamp_s");
@@ -50,7 +50,7 @@ std::vector<RecordedTag> read_recorded_tags(const std::string& path) {
 }
 
 void replay(const RecordedTag& recorded, TagSpec& tag) {
-  // The table tells places alone.
+  // The table contains positions only, no orientations.
   const bool is_turned = tag.on.empty() && !tag.motion.empty();
   const Eigen::Quaterniond R_WT =
       is_turned ? tag.motion.front().X_WB.rotation : Eigen::Quaterniond::Identity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What to simulate, as a plain struct. docs/scenario.md tells how to write one as YAML.
+/// What to simulate, as a plain struct. docs/scenario.md describes the YAML format.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,58 +27,58 @@ namespace tagfield {
 
 struct Obstacles;  // of laser/simulated_laser.h
 
-/// What something that moves is to waves: as high as this, and made of that.
+/// A moving body as seen by waves: its height and material.
 struct BodySpec {
   double height_m = 1.75;
   Material material;
 };
 
-/// Taller than a robot's laser; seen from above a disc, or a rectangle.
+/// An obstacle taller than a robot's laser; seen from above, a disc or a rectangle.
 struct ObstacleSpec {
   std::string name;
   double radius_m = 0.0;                             ///< 0 for a rectangle.
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  ///< Of the rectangle.
   double yaw_rad = 0.0;
-  /// Where its middle is, x and y; one position for one that stands. Before the first and after
-  /// the last it stays where that is.
+  /// Position of its centre, x and y; a single one if it is stationary. Before the first and after
+  /// the last it stays there.
   Trajectory motion;
   Time appears;
   std::optional<Time> disappears;
-  std::optional<BodySpec> body;  ///< None: waves don't notice it.
+  std::optional<BodySpec> body;  ///< None: invisible to waves.
   Location location;
 };
 
-/// Whether it is there at `stamp`.
+/// Whether the obstacle is present at `stamp`.
 bool is_there(const ObstacleSpec& spec, Time stamp);
 
-/// Those that are there at `stamp`, where they are then.
+/// The obstacles present at `stamp`, at their positions then.
 Obstacles obstacles_at(const std::vector<ObstacleSpec>& specs, Time stamp);
 
-/// Least distance from `p_W` to an obstacle's surface at `stamp` [m], negative inside; a large
-/// number where there is none.
+/// Minimum distance from `p_W` to an obstacle's surface [m], negative inside; a large number if
+/// there are none.
 double distance_to_obstacles(const Obstacles& obstacles, const Eigen::Vector2d& p_W);
 
 struct Scenario;
 
-/// A part of the hall, such as a dock door or a shelf, and the readers that shall read it.
+/// A part of the hall, such as a dock door or a shelf, and the readers meant to read it.
 struct ZoneSpec {
   std::string name;
-  Eigen::AlignedBox3d box_W;         ///< [m]; unbounded in z where the scenario gives no heights.
-  std::vector<std::string> readers;  ///< Names as of reader_groups(); none: nobody's.
-  Location location;                 ///< Where it was written, for messages.
+  Eigen::AlignedBox3d box_W;         ///< [m]; unbounded in z if the scenario gives no heights.
+  std::vector<std::string> readers;  ///< Names as in reader_groups(); empty: no reader's.
+  Location location;                 ///< Location in the file, for messages.
 };
 
-/// Who reads by each of the scenario's antennas: the antenna's reader, or where it rides on a robot
-/// the robot, whose antennas pass the same tags on the same way.
+/// The reader group of each of the scenario's antennas: the antenna's reader, or for antennas on a
+/// robot the robot, since its antennas pass the same tags along the same path.
 std::vector<std::string> reader_groups(const Scenario& scenario);
 
-/// Each of `names` once, in the order in which they come.
+/// Each of `names` once, in order of first occurrence.
 std::vector<std::string> distinct(const std::vector<std::string>& names);
 
-/// Throws Error where a zone names a reader that no antenna belongs to.
+/// Throws Error if a zone names a reader that no antenna belongs to.
 void require_readers_of_zones(const Scenario& scenario);
 
-/// The first of the zones that holds `p_W`; their count where none does.
+/// Index of the first zone that contains `p_W`; their count if none does.
 std::size_t zone_at(const std::vector<ZoneSpec>& zones, const Eigen::Vector3d& p_W);
 
 struct NavigationSpec;
@@ -89,23 +89,23 @@ struct TagModel;
 struct AntennaSpec {
   AntennaParameters parameters;
   std::string on;       ///< Name of a robot, or "" for the world.
-  RigidTransform X_PA;  ///< With the lift at its lower end.
+  RigidTransform X_PA;  ///< With the lift at its lowest position.
   Lift lift;            ///< Moves the antenna along P's z.
-  /// Poses X_WA of an earlier run: where the antenna is, and when it updates, instead of all of the
-  /// above and of its rate. Empty for an antenna that is carried.
+  /// Poses X_WA of an earlier run. They give the antenna's pose and its update times, instead of
+  /// all of the above and of its rate. Empty if not replayed.
   Trajectory recorded;
-  Location location;  ///< Where it was written, for messages.
+  Location location;  ///< Location in the file, for messages.
 };
 
 /// A tag and how it moves.
 struct TagSpec {
   std::string id;
   std::string on;                         ///< Name of a robot, or "" for the world.
-  std::shared_ptr<const TagModel> model;  ///< What kind it is, for the physical models.
-  /// Poses in P; one of them for a tag at rest in P. Before the first and after the last the
-  /// tag stays where that is.
+  std::shared_ptr<const TagModel> model;  ///< Its kind, for the physical models.
+  /// Poses in P; a single one for a tag at rest in P. Before the first and after the last the tag
+  /// stays there.
   Trajectory motion;
-  bool in_steps = false;  ///< Each pose holds until the next; otherwise straight between them.
+  bool in_steps = false;  ///< Each pose holds until the next; else linear interpolation.
   Time appears;
   std::optional<Time> disappears;
   Location location;
@@ -117,60 +117,60 @@ inline bool moves(const TagSpec& tag) { return !tag.on.empty() || tag.motion.siz
 struct WorldSpec {
   std::string path;                       ///< "" for empty space.
   std::vector<std::string> search_paths;  ///< For `model://`.
-  bool skip_missing = false;              ///< Goes on without files that are missing or broken.
+  bool skip_missing = false;              ///< Skips missing or broken files.
 };
 
-/// How the tags' heights are known to localization.
+/// What localization knows about the tags' heights.
 enum class KnownHeight {
-  kTag,      ///< Each tag's own, as from the rack that it is on.
-  kAntenna,  ///< Not at all: as high as the antennas in the mean.
-  kNumber,   ///< One for all, in `height_m`.
-  kAbove,    ///< To be estimated, above the antennas.
-  kBelow,    ///< Likewise below.
+  kTag,      ///< Each tag's own height, as from the rack that it is on.
+  kAntenna,  ///< Unknown: the antennas' mean height is used.
+  kNumber,   ///< One height for all, `height_m`.
+  kAbove,    ///< Estimated, above the antennas.
+  kBelow,    ///< Estimated, below the antennas.
 };
 
-/// The method of a scenario that asks who is read, and for no places.
+/// The method of a scenario that is about which tags are read, without localization.
 inline constexpr const char* kNoLocalization = "none";
 
 struct LocalizationSpec {
   std::string method = "hyperbola";  ///< Or kNoLocalization.
-  std::vector<std::string> compare;  ///< Methods that locate the same reads, for comparison.
-  MethodSettings settings;           ///< Of `method` and of those that are compared.
+  std::vector<std::string> compare;  ///< Methods run on the same reads, for comparison.
+  MethodSettings settings;           ///< Of `method` and of the compared ones.
   TagArea area;                      ///< Where tags can be.
   EstimateLimits limits;
   KnownHeight known_height = KnownHeight::kTag;
   double height_m = 0.0;
   std::optional<bool> half_turns;  ///< As in KnownBeforehand.
   bool offset_known = false;  ///< Whether the antennas' phase offsets are known, as calibrated.
-  std::vector<std::string> reference_tags;   ///< IDs of those whose places are known.
-  std::optional<PoseErrorModel> pose_error;  ///< Where not told, that of the pose's source.
+  std::vector<std::string> reference_tags;   ///< IDs of tags with known positions.
+  std::optional<PoseErrorModel> pose_error;  ///< Default: that of the pose source.
 };
 
 /// How moving tags are tracked; see docs/tracking.md.
 struct TrackingSpec {
   TrackingOptions options;
-  std::optional<PassingLine> line;  ///< At which the tags' order is told.
+  std::optional<PassingLine> line;  ///< Line at which the order of the tags is reported.
 };
 
 struct Scenario {
   std::string name;
   std::string description;
   WorldSpec world;
-  RadioWorldOptions materials;  ///< What the world is made of, for the physical models.
+  RadioWorldOptions materials;  ///< Materials of the world, for the physical models.
   /// The world as waves see it; null for free space.
   std::shared_ptr<const RadioWorld> radio_world;
   std::uint64_t seed = 1;
   double time_step_s = 0.01;
-  std::optional<double> duration_s;  ///< Where not set: until all robots have arrived.
+  std::optional<double> duration_s;  ///< If not set: until all robots have arrived.
   double real_time = 0.0;            ///< Multiple of real time to run at; 0 for as fast as it can.
   std::vector<RobotSpec> robots;
   PoseBelief pose;
-  /// For PoseSource::kSlam, as the scenario's file tells it; null for what is usual.
+  /// For PoseSource::kSlam, as in the scenario file; null for the defaults.
   std::shared_ptr<const NavigationSpec> navigation;
   std::vector<ObstacleSpec> obstacles;
   std::vector<AntennaSpec> antennas;
   std::vector<TagSpec> tags;
-  std::vector<ZoneSpec> zones;  ///< Empty: each tag is meant for the reader that comes nearest.
+  std::vector<ZoneSpec> zones;  ///< Empty: each tag is meant for the reader that comes closest.
   LocalizationSpec localization;
   TrackingSpec tracking;
 };

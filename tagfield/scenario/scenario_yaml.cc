@@ -33,7 +33,7 @@ namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
-/// Where `is_given`, the world itself is there already.
+/// With `is_given`, the world has been passed along with the scenario.
 WorldSpec world_of(YamlMap map, bool is_given) {
   WorldSpec world;
   if (map.has("path") == is_given) {
@@ -140,7 +140,7 @@ AntennaSpec antenna_of(YamlMap map, const RadioDefaults& radio, Diagnostics& dia
   return antenna;
 }
 
-/// Every pose of the motion turned so.
+/// Sets the rotation of every pose of the motion.
 void turn(Trajectory& motion, const Eigen::Quaterniond& R_PT) {
   for (StampedPose& pose : motion) pose.X_WB.rotation = R_PT;
 }
@@ -172,7 +172,7 @@ TagSpec tag_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics
   return tag;
 }
 
-/// What is written as the URI of an EPC is one.
+/// Requires that IDs written as EPC URIs are valid.
 void require_epcs(const std::vector<TagSpec>& tags) {
   for (const TagSpec& tag : tags) {
     if (!is_epc_uri(tag.id)) continue;
@@ -184,7 +184,7 @@ void require_epcs(const std::vector<TagSpec>& tags) {
   }
 }
 
-/// Antennas send on a power that some kind of tag can need.
+/// Requires that every tag's sensitivity is below the antennas' highest transmit power.
 void require_power_for_tags(const Scenario& scenario) {
   double most_dbm = -std::numeric_limits<double>::infinity();
   for (const AntennaSpec& antenna : scenario.antennas) {
@@ -293,13 +293,13 @@ double planned_duration_s(const Scenario& scenario) {
   return scenario.duration_s.value_or(kUsual_s);
 }
 
-/// A scenario, and what is wrong with it if none of its antennas is a physical one.
+/// A scenario, and the error that applies if none of its antennas is a physical one.
 struct ReadScenario {
   Scenario scenario;
   std::optional<Error> without_physical_antenna;
-  std::vector<PlacedKey> of_physical_models;  ///< Without effect where there is none.
+  std::vector<PlacedKey> of_physical_models;  ///< Without effect if there is none.
   std::optional<PlanSpec> plan;
-  bool has_plan = false;  ///< A section `plan`, looked at or not.
+  bool has_plan = false;  ///< Whether there is a section `plan`, read or not.
 };
 
 void require_use_of_keys(const ReadScenario& read) {
@@ -309,13 +309,13 @@ void require_use_of_keys(const ReadScenario& read) {
 }
 
 PlanSpec read_plan(YamlMap& map, const Scenario& scenario, Diagnostics& diagnostics) {
-  Diagnostics heard;  // Of the scenario's own radio keys.
+  Diagnostics heard;  // Warnings about the scenario's own radio keys, reported before.
   const RadioDefaults radio = radio_defaults_of(map, heard);
   return plan_of(YamlMap(map.at("plan")), radio, planned_duration_s(scenario), diagnostics);
 }
 
-/// `scene`: the world, where it was given with the scenario; else null. With its section `plan`
-/// where `to_plan` is set; that is not looked at otherwise.
+/// `scene`: the world if it was passed along with the scenario, else null. The section `plan` is
+/// read only if `to_plan` is set.
 ReadScenario read_scenario(const YAML::Node& root, const std::string& path,
                            const std::vector<Override>& overrides, const Scene* scene,
                            const std::vector<Method>& methods, Diagnostics& diagnostics,
@@ -374,7 +374,7 @@ ScenarioWithWorld with_world(ReadScenario read, const std::string& path, const S
   return loaded;
 }
 
-/// Tags of the scenario that rest, each where and as it is; those that move are not planned for.
+/// Adds the scenario's stationary tags, each at its own pose; moving ones are not planned for.
 void add_own_tags(const Scenario& scenario, Diagnostics& diagnostics, PlanSpec& plan) {
   std::size_t moving = 0;
   for (const TagSpec& tag : scenario.tags) {
@@ -416,7 +416,7 @@ Scenario load_scenario(const std::string& path, const std::vector<Override>& ove
                        Diagnostics& diagnostics, const std::vector<Method>& methods) {
   const ReadScenario read =
       read_scenario(read_yaml(path), path, overrides, nullptr, methods, diagnostics);
-  // The world of one that has it may bring antennas.
+  // If there is a world, it may add antennas.
   if (read.scenario.world.path.empty()) {
     require_use_of_keys(read);
     warn_of_idle_settings(read.scenario, read.of_physical_models, diagnostics);

@@ -16,10 +16,10 @@
 namespace tagfield {
 namespace {
 
-constexpr double kMost = 1e15;  // Of any other number.
+constexpr double kMost = 1e15;  // For any other number.
 constexpr std::size_t kMostYamlBytes = 16'000'000;
 constexpr std::size_t kMostKeys = 100'000;
-constexpr int kMostLevels = 100;  // Of lists and maps in each other; a node may hold itself.
+constexpr int kMostLevels = 100;  // Of nested lists and maps; a node may contain itself.
 constexpr const char* kCommandLine = "--set";
 // Tag of YAML nodes that did not come from the file.
 constexpr const char* kFromCommandLine = "!set";
@@ -28,7 +28,7 @@ bool ends_in(const std::string& text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
-/// By the unit in its key: metres, but not siemens per metre.
+/// The maximum by the unit in the key: metres, but not siemens per metre.
 double most_of(const YamlValue& value) {
   const bool is_length = ends_in(value.path(), "_m") && !ends_in(value.path(), "_s_m");
   return is_length ? kMostLength_m : kMost;
@@ -47,7 +47,7 @@ void require_in_range(const YamlValue& value, double number, NumberRange range) 
   }
 }
 
-/// Of text, each there once.
+/// Requires that all keys are text and unique.
 void require_unique_keys(const YamlValue& map) {
   if (map.node().size() > kMostKeys) {
     map.fail(fmt::format("has {} keys, expected at most {}", map.node().size(), kMostKeys));
@@ -61,7 +61,7 @@ void require_unique_keys(const YamlValue& map) {
   }
 }
 
-/// Element of a list by its place, its `name` or its `id`.
+/// Element of a list by its index, its `name` or its `id`.
 YAML::Node element_of(const YAML::Node& list, const std::string& which) {
   std::size_t place = 0;
   const char* end = which.data() + which.size();
@@ -76,8 +76,8 @@ YAML::Node element_of(const YAML::Node& list, const std::string& which) {
   return YAML::Node(YAML::NodeType::Undefined);
 }
 
-/// The elements of a list that a word means: one by its place, its `name` or its `id`, or all that
-/// match a pattern.
+/// The elements of a list that a word refers to: one by its index, its `name` or its `id`, or all
+/// that match a pattern.
 std::vector<YAML::Node> elements_of(const YAML::Node& list, const std::string& which) {
   if (!is_pattern(which)) {
     const YAML::Node element = element_of(list, which);
@@ -136,13 +136,13 @@ YAML::Node parse_value(std::string_view key_path, const std::string& text) {
   }
 }
 
-/// The child under `key`, which is made where there is none.
+/// The child under `key`, created if there is none.
 YAML::Node child_of(YAML::Node map, const std::string& key) {
   if (!map[key].IsDefined() || map[key].IsNull()) map[key] = YAML::Node(YAML::NodeType::Map);
   return map[key];
 }
 
-/// Sets what the words from `depth` on mean below `parent`.
+/// Sets the node below `parent` that the words from `depth` on refer to.
 void set_below(YAML::Node parent, std::string_view key_path, const std::vector<std::string>& words,
                std::size_t depth, const std::string& value) {
   const std::string& word = words[depth];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// YAML mappings read with care: every value is checked, every complaint names file and line, and
-/// keys that nobody asked for are errors.
+/// Strict reading of YAML mappings: every value is checked, every error message names file and
+/// line, and keys that are never read are errors.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -16,12 +16,12 @@
 
 namespace tagfield {
 
-/// What a number may be.
+/// Allowed range of a number.
 enum class NumberRange { kAny, kNotNegative, kPositive };
 inline constexpr NumberRange kPositive = NumberRange::kPositive;
 inline constexpr NumberRange kNotNegative = NumberRange::kNotNegative;
 
-/// A value somewhere in a YAML file: where it stands and what its path is ("antennas[0].pose").
+/// A value in a YAML file, with its location and its path ("antennas[0].pose").
 class YamlValue {
  public:
   YamlValue(const YAML::Node& node, std::string file, std::string path)
@@ -34,7 +34,7 @@ class YamlValue {
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const std::string& path() const { return path_; }
 
-  /// Finite number within `range` and ±1e15, or ±1e5 where the key ends in `_m`.
+  /// Finite number within `range` and ±1e15, or ±1e5 if the key ends in `_m`.
   [[nodiscard]] double number(NumberRange range = NumberRange::kAny) const;
   [[nodiscard]] std::uint64_t whole_number() const;
   [[nodiscard]] bool boolean() const;
@@ -43,7 +43,7 @@ class YamlValue {
   /// List of at least `least` and at most `most` finite numbers.
   [[nodiscard]] std::vector<double> numbers(
       std::size_t least, std::size_t most = std::numeric_limits<std::size_t>::max()) const;
-  /// The same of places, sizes and angles: each within ±1e5.
+  /// Same, but for positions, sizes and angles: each within ±1e5.
   [[nodiscard]] std::vector<double> lengths(std::size_t least, std::size_t most) const;
   /// Throws Error unless it is within ±1e5.
   void require_length(double length_m) const;
@@ -55,7 +55,7 @@ class YamlValue {
   std::string path_;
 };
 
-/// A mapping whose keys are taken one by one; finish() complains of those left over.
+/// A mapping whose keys are read one by one; finish() reports those left over.
 class YamlMap {
  public:
   explicit YamlMap(YamlValue value);
@@ -71,9 +71,9 @@ class YamlMap {
   bool boolean(const std::string& key, bool otherwise);
   std::vector<YamlValue> list(const std::string& key);
 
-  /// Throws Error if a key that was not asked for yet looks like a slip of `missing`.
+  /// Throws Error if a key that was not read yet looks like a typo of `missing`.
   void complain_of_slip(const std::string& missing) const;
-  /// Throws Error naming the first key that was never asked for and the nearest one that was.
+  /// Throws Error naming the first key that was never read and the most similar known one.
   void finish() const;
 
  private:
@@ -85,14 +85,16 @@ class YamlMap {
   std::vector<std::string> known_;
 };
 
-/// Reads a file that holds one mapping. Throws Error "FILE:LINE: …" if it is missing or malformed.
+/// Reads a file that contains one mapping. Throws Error "FILE:LINE: …" if it is missing or
+/// malformed.
 YAML::Node read_yaml(const std::string& path);
-/// Likewise of text that is there already; complaints call it `path`.
+/// Same, but from text; error messages call it `path`.
 YAML::Node yaml_in(const std::string& text, const std::string& path);
 
-/// Puts `value` (YAML text) under `key_path` ("pose.sigma_m", "antennas.0.range_m", or with a
-/// list's element by its name or id: "antennas.mobile.range_m"; with a pattern all whose name or id
-/// matches: "antennas.port_*.range_m", see base/wildcard.h). Throws Error where that leads nowhere.
+/// Sets `key_path` to `value` (YAML text). Examples: "pose.sigma_m"; "antennas.0.range_m", or with
+/// the name or ID of a list's element "antennas.mobile.range_m"; with a pattern, all elements whose
+/// name or ID matches: "antennas.port_*.range_m" (see base/wildcard.h). Throws Error if the path
+/// leads nowhere.
 void set_in_yaml(const YAML::Node& root, std::string_view key_path, const std::string& value);
 
 }  // namespace tagfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Values that several parts of a scenario have: choices, paths, positions, motions.
+/// Values used in several parts of a scenario: choices, paths, positions, motions.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,11 +14,11 @@
 
 namespace tagfield {
 
-/// Which of `choices` the word is; throws Error with the nearest.
+/// Index of the word among `choices`; throws Error that suggests the most similar one.
 std::size_t choice(const YamlValue& value, const std::vector<std::string>& choices);
 
-/// A path as the user means it: from the file relative to the file, from --set to the current
-/// folder.
+/// A path as the user means it: one in the file is relative to the file, one from --set to the
+/// current folder.
 std::string resolve_path(const YamlValue& value);
 
 /// Seconds that the simulation's clock can hold.
@@ -26,7 +26,8 @@ double seconds_of(const YamlValue& value, NumberRange range);
 
 Eigen::Vector3d position_of(const YamlValue& value);
 
-/// Where tags can be, by the keys `side` and `box` ([x0, y0, x1, y1] with corners in any order).
+/// The area where tags can be, from the keys `side` and `box` ([x0, y0, x1, y1] with corners in any
+/// order).
 TagArea tag_area_of(YamlMap& map);
 
 /// [x, y, z] or [x, y, z, roll, pitch, yaw], as in SDF.

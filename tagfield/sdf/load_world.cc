@@ -29,7 +29,7 @@ using sdf_internal::NamedPlacement;
 using sdf_internal::Scope;
 using tinyxml2::XMLElement;
 
-/// A model that is being gathered.
+/// A model that is being collected.
 struct Place {
   const Model& model;
   std::string name;  ///< Scoped.
@@ -37,7 +37,7 @@ struct Place {
   const ModelState& state;
 };
 
-/// Walks a world's models and gathers a scene. P is what is around a model, M the model's frame,
+/// Visits all models of a world and collects a scene. P is the frame around a model, M the model's,
 /// L a link's, C a collision's.
 class SceneGatherer {
  public:
@@ -100,7 +100,7 @@ class SceneGatherer {
     return X_ML.inverse() * pose_in(place.model.scope, frame, X_ML, context_.diagnostics);
   }
 
-  /// Names of the link's visuals and of what they wear.
+  /// Names of the link's visuals and of their materials.
   std::vector<std::string> looks_of(const Link& link, const std::string& scope) {
     std::set<std::string> looks;
     for_each_child(*link.element, "visual", [&](const XMLElement& visual) {
@@ -132,7 +132,7 @@ class SceneGatherer {
   std::vector<NamedPlacement> tags_;
 };
 
-/// Parts of a world that would bring solids, were they used.
+/// Parts of a world that would contain solids if they were supported.
 void warn_of_unused_parts(Context& context, const XMLElement& world) {
   for (const char* name : {"population", "actor"}) {
     if (const XMLElement* part = world.FirstChildElement(name)) {
@@ -185,7 +185,7 @@ Scene load_world(const std::string& path, const std::vector<std::string>& search
   Context context{std::move(resources), options.skip_missing, diagnostics};
   const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
   Scene scene = scene_of(context, root_of(context, absolute, path));
-  tell_missing(context);
+  report_missing(context);
   return scene;
 }
 

@@ -46,7 +46,8 @@ std::string in_small_letters(std::string text) {
   return text;
 }
 
-/// The entry of `folder` called `name` but for case, the first in order; none if there is none.
+/// The entry of `folder` whose name equals `name` ignoring case, the first in order; nullopt if
+/// there is none.
 std::optional<fs::path> entry_like(const fs::path& folder, const std::string& name) {
   std::vector<fs::path> alike;
   std::error_code error;
@@ -60,7 +61,7 @@ std::optional<fs::path> entry_like(const fs::path& folder, const std::string& na
   return *std::min_element(alike.begin(), alike.end());
 }
 
-/// folder/rest with whatever case its parts have; "" if there is none.
+/// folder/rest, ignoring the case of its parts; "" if it doesn't exist.
 std::string find_like(const fs::path& folder, const fs::path& rest) {
   fs::path path = folder;
   for (const fs::path& part : rest) {
@@ -76,7 +77,7 @@ std::string find_like(const fs::path& folder, const fs::path& rest) {
   return path == folder ? "" : path.string();
 }
 
-/// What is found at folder/rest in one of the folders; in another case only where it is nowhere as
+/// folder/rest in the first folder that has it; case is ignored only if no folder has it as
 /// written.
 FoundResource find_below(const std::vector<std::string>& folders, const fs::path& rest) {
   if (rest.empty() || rest.is_absolute()) return {};
@@ -123,7 +124,7 @@ struct FuelName {
   std::string host;
   std::string owner;
   std::string model;
-  std::string version;  ///< "" for the newest.
+  std::string version;  ///< "" for the newest version.
   fs::path rest;
 };
 
@@ -141,7 +142,7 @@ std::optional<FuelName> fuel_name(const std::string& rest) {
   return name;
 }
 
-/// The folder in `model` with the highest number for its name; "" if there is none.
+/// The subfolder of `model` with the highest number as its name; "" if there is none.
 std::string newest_version(const fs::path& model) {
   double newest = -1.0;
   std::string found;
@@ -156,7 +157,7 @@ std::string newest_version(const fs::path& model) {
   return found;
 }
 
-/// Without a '/' at its end where there is nothing below.
+/// Without a trailing '/' if `rest` is empty.
 fs::path below_folder(const fs::path& folder, const fs::path& rest) {
   return rest.empty() ? folder : folder / rest;
 }
@@ -188,7 +189,7 @@ bool is_within(const fs::path& path, const std::string& folder) {
   return rest == around.end() || (rest->empty() && std::next(rest) == around.end());
 }
 
-/// Whether a file lies where those of a world may, whatever links lead there.
+/// Whether a file is in a folder allowed for a world's files, after resolving links.
 bool is_allowed(const std::string& found, const std::string& naming_file,
                 const ResourcePaths& paths) {
   if (paths.allow_outside) return true;

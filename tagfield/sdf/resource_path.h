@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where a URI in a world file points to on this disk.
+/// Resolution of the URIs in a world file to local files.
 #pragma once
 
 #include <string>
@@ -8,42 +8,40 @@
 
 namespace tagfield {
 
-/// The folders in which files are looked up, in the order in which they are tried.
+/// The folders that are searched for files, in search order.
 struct ResourcePaths {
-  std::vector<std::string> folders;  ///< That hold models.
-  std::vector<std::string> roots{};  ///< For relative paths alone.
+  std::vector<std::string> folders;  ///< Folders that contain models.
+  std::vector<std::string> roots{};  ///< For relative paths only.
   std::vector<std::string> fuel{};   ///< Caches of Gazebo Fuel: HOST/OWNER/models/NAME/VERSION.
-  bool allow_outside = false;        ///< Of all of these and of the folder of the naming file.
+  bool allow_outside = false;        ///< Allows files in other folders, too.
 };
 
 /// `search_paths`; the world file's folder, its `models` folder and the `models` folder beside it;
-/// the folders in the environment's SDF_PATH, GAZEBO_MODEL_PATH, IGN_GAZEBO_RESOURCE_PATH and
-/// GZ_SIM_RESOURCE_PATH (separated by ':'); what Gazebo has fetched (~/.gazebo/models) and what
-/// came with Gazebo 11. Folders that don't exist are left out. Relative paths are looked up in the
-/// folder above one called `worlds`, too. Fuel's caches are GZ_FUEL_CACHE_PATH,
-/// IGN_FUEL_CACHE_PATH, ~/.gz/fuel and ~/.ignition/fuel.
+/// the folders in the environment variables SDF_PATH, GAZEBO_MODEL_PATH, IGN_GAZEBO_RESOURCE_PATH
+/// and GZ_SIM_RESOURCE_PATH (separated by ':'); the models that Gazebo has downloaded
+/// (~/.gazebo/models) and those shipped with Gazebo 11. Folders that don't exist are left out.
+/// Relative paths are also searched for in the parent of a folder called `worlds`. Fuel's caches
+/// are GZ_FUEL_CACHE_PATH, IGN_FUEL_CACHE_PATH, ~/.gz/fuel and ~/.ignition/fuel.
 ResourcePaths resource_paths(const std::string& world_path,
                              const std::vector<std::string>& search_paths);
 
-/// A file or folder; no path where nothing was found.
+/// A file or folder; the path is empty if nothing was found.
 struct FoundResource {
   std::string path;
-  std::string
-      oddity{};  ///< In what it is not what the URI says, or why it is not used; "" if all is well.
+  std::string oddity{};  ///< How it differs from the URI, or why it is unused; or "".
 };
 
 /// The file or folder that `uri` names:
 /// - `model://NAME/rest` and `package://NAME/rest`: NAME/rest in the first folder that has it,
 /// - `file://PATH` and absolute paths: that path,
-/// - relative paths: beside `naming_file` (the file that holds the URI), then in the folders,
+/// - relative paths: beside `naming_file` (the file that contains the URI), then in the folders,
 /// - `https://FUEL/1.0/OWNER/models/NAME`: in Fuel's caches, else as model://NAME.
-/// What is not there is looked for under names in another case (an oddity). Any other scheme names
-/// nothing here.
+/// If nothing exists under that name, it is searched for ignoring case (an oddity). A URI with any
+/// other scheme is never found.
 FoundResource find_resource(const std::string& uri, const std::string& naming_file,
                             const ResourcePaths& paths);
 
-/// The last part of a URI's path as a model's name is written: in small letters, with '_' for
-/// blanks.
+/// The last part of a URI's path in the form of a model's name: in lower case, with '_' for spaces.
 std::string model_name(const std::string& uri);
 
 /// "looked in A, B", for an error message.

@@ -20,7 +20,7 @@ bool is_any(const std::string& key, const std::array<std::string_view, N>& keys)
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-/// Settings of an inventory's link, rounds and turns.
+/// Settings of an inventory's link, rounds and port cycle.
 constexpr std::array<std::string_view, 20> kOfInventory = {
     "session",         "target",          "adaptive_q",   "start_q",    "min_q",
     "max_q",           "q_step",          "capture_db",   "power_up_s", "round_overhead_s",

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Settings that change nothing beside the others that were given: Q without an inventory, the tilt
-/// of a circular polarization. Whoever gives one expects something of it, and is told.
+/// Settings that have no effect in combination with the others given: Q without an inventory, the
+/// tilt of a circular polarization. They cause a warning, since whoever gives one expects an
+/// effect.
 #pragma once
 
 #include <optional>
@@ -12,12 +13,12 @@ namespace tagfield {
 struct RadioModel;
 struct TagModel;
 
-/// Why the antenna's setting `key` (radio_settings.h) changes nothing in `model`, such as "without
-/// inventory: gen2"; none where it does, or may do so in some world. Effects that `without` leaves
-/// out count as there: whoever leaves one out knows that its settings then are without effect.
+/// Why the antenna's setting `key` (radio_settings.h) has no effect in `model`, such as "without
+/// inventory: gen2"; none if it has one, or may have one in some world. Effects disabled by
+/// `without` count as present: a user who disables one knows that its settings then have no effect.
 std::optional<std::string> why_idle(const std::string& key, const RadioModel& model);
 
-/// Likewise of a tag.
+/// Same, but for a tag.
 std::optional<std::string> why_idle(const std::string& key, const TagModel& tag);
 
 }  // namespace tagfield

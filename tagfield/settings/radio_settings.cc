@@ -47,7 +47,7 @@ AntennaDraft default_draft(PropagationModel model) {
 /// In the order of PropagationModel.
 constexpr std::array<const char*, 3> kModels = {"paper", "link_budget", "multipath"};
 
-/// Those of the table, which alone were applied.
+/// Appends the parameters that are in the table; no others were applied.
 template <class T>
 void add_settings(const std::vector<Setting<T>>& table, const std::vector<RawParameter>& parameters,
                   std::vector<RawParameter>& settings) {
@@ -98,7 +98,7 @@ std::shared_ptr<const RadioModel> radio_model_from(PropagationModel model,
   AntennaDraft draft = default_draft(model);
   apply_settings(antenna_table(), parameters, draft);
   if (draft.takes_inventory) draft.model.gen2 = draft.gen2;
-  // A link budget has no other paths, whatever the antenna's multipath would have.
+  // A link budget has no paths except the direct one, whatever the multipath settings say.
   if (model == PropagationModel::kLinkBudget) {
     draft.model.effects.reflections = false;
     draft.model.effects.diffraction = false;

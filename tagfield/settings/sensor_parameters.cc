@@ -24,7 +24,7 @@ double number_of(const RawParameter& parameter, const std::string& text) {
   return *value;
 }
 
-/// All numbers that a sensor's plugin may tell, with the published defaults, which differ from a
+/// All numeric parameters of a sensor's plugin, with the published defaults, which differ from a
 /// scenario's.
 struct Numbers {
   PaperAntenna paper{{865.7e6, 0.0, 0.1, 0.005, 250.0, {}}, 5.0, 0.05};
@@ -33,8 +33,8 @@ struct Numbers {
 
 struct NumberSetting {
   const char* key;
-  bool published;  ///< And so to be missed where it is not given,
-  bool physical;   ///< by physical models too.
+  bool published;  ///< A warning is given if it is missing.
+  bool physical;   ///< Also used by physical models.
   double& (*field)(Numbers&);
 };
 
@@ -137,7 +137,7 @@ void warn_of_unknown(const std::vector<RawParameter>& parameters, std::vector<st
   }
 }
 
-/// The parameter that a check complained of, as it is called in SDF.
+/// The message of a failed check with the parameter's name as in SDF.
 std::string in_sdf_words(std::string message) {
   static const std::array<std::array<const char*, 2>, 9> words = {{
       {"frequency_hz", "<frequency>"},

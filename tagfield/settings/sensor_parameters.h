@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Antennas and tags as an SDF sensor's plugin describes them: the published plugin's parameters,
-/// and those that Tagfield adds.
+/// Antennas and tags as described by an SDF sensor's plugin: the published plugin's parameters, and
+/// those added by Tagfield.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +17,25 @@ namespace tagfield {
 
 struct TagModel;
 
-/// What the plugin of an `rfid` sensor says.
+/// The parameters of an `rfid` sensor's plugin.
 ///
 /// The published parameters, with their published defaults: `frequency` [Hz] 865.7e6, `noisephi`
 /// [rad] 0.1, `noiserssi` (amplitude) 0.005, `range` [m] 5, `communication_gain` 250,
-/// `optional_distribution` none, `optional_distribution_params` (numbers between spaces); and the
-/// sensor's `update_rate` [Hz] 15.
+/// `optional_distribution` none, `optional_distribution_params` (numbers separated by spaces); and
+/// the sensor's `update_rate` [Hz] 15.
 ///
 /// Tagfield's own: `model` paper | link_budget | multipath (default paper), `antenna` (its name,
 /// unique; default: the sensor's), `reader` (the name of its reader; default: the antenna's),
 /// `phase_offset` [rad] 0, `range_sigma` (relative spread of the range) 0.05, `sensitivity_dbm`
-/// (least RSSI that is reported) none.
+/// (minimum RSSI that is reported) none.
 ///
-/// In Gazebo alone: `seed` (of all random draws) 1, `robotNamespace` (of the topics) none,
+/// In Gazebo only: `seed` (of all random draws) 1, `robotNamespace` (of the topics) none,
 /// `frame_id` (of the messages; default: the antenna's name), `parent_frame` (the link of the same
-/// model that the frame is told to hang from; none where it is not told).
+/// model that the frame is published as a child of; default: none).
 ///
-/// With a physical model `parameters.model` is made by sensor_radio() from all settings of
-/// radio_settings.h, and of the published parameters only `frequency` and `update_rate` count.
+/// With a physical model `parameters.model` is built by sensor_radio() from the settings in
+/// radio_settings.h; of the published parameters only `frequency` and `update_rate` then have an
+/// effect.
 struct SensorAntenna {
   AntennaParameters parameters;
   std::uint64_t seed = 1;
@@ -43,24 +44,25 @@ struct SensorAntenna {
   std::string parent_frame;
 };
 
-/// Reads an antenna's parameters; `sensor` is the sensor's name. Throws Error on a value that is no
-/// number or out of its range, naming the parameter, with the place in the file where it is known.
-/// Unknown parameters are warned of, and the published ones that are missing in one warning.
+/// Reads an antenna's parameters; `sensor` is the sensor's name. Throws Error on a value that is
+/// not a number or out of range, naming the parameter and, if known, its location in the file.
+/// Warns about each unknown parameter, and once about all published ones that are missing.
 SensorAntenna antenna_from(const std::string& sensor, const std::vector<RawParameter>& parameters,
                            const Location& location, Diagnostics& diagnostics);
 
-/// What the plugin of an `rfidtag` sensor says.
+/// The parameters of an `rfidtag` sensor's plugin.
 struct SensorTag {
-  std::optional<std::string> epc;         ///< Its ID, where one is given.
-  std::shared_ptr<const TagModel> model;  ///< Its kind for physical models; null where not told.
+  std::optional<std::string> epc;         ///< Its ID, if one is given.
+  std::shared_ptr<const TagModel> model;  ///< Its kind for physical models; null if not given.
 };
 
-/// Reads a tag's `epc` and its settings of radio_settings.h. Throws Error on an ID that is empty
-/// and on a setting that is wrong, naming it. Unknown parameters are warned of.
+/// Reads a tag's `epc` and its settings of radio_settings.h. Throws Error on an empty ID and on an
+/// invalid setting, naming it. Warns about unknown parameters.
 SensorTag tag_from(const std::vector<RawParameter>& parameters, const Location& location,
                    Diagnostics& diagnostics);
 
-/// The numbers in `parameter`'s value, between white space. Throws Error if one is none.
+/// The numbers in `parameter`'s value, separated by white space. Throws Error if one of them is not
+/// a number.
 std::vector<double> numbers_of(const RawParameter& parameter);
 
 }  // namespace tagfield

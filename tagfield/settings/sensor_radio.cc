@@ -14,7 +14,7 @@
 namespace tagfield {
 namespace {
 
-/// A published parameter and the setting that it stands for.
+/// A published parameter and its equivalent setting.
 struct Synonym {
   const char* sdf;
   const char* setting;
@@ -24,8 +24,8 @@ constexpr std::array<Synonym, 2> kSynonyms = {
 
 using IsSetting = bool (*)(const std::string&);
 
-/// The settings among `parameters`, the published ones first. Without places, so that a complaint
-/// begins with a key.
+/// The settings among `parameters`, the published ones first. Without locations, so that error
+/// messages begin with a key.
 std::vector<RawParameter> settings_in(const std::vector<RawParameter>& parameters,
                                       IsSetting is_setting) {
   std::vector<RawParameter> settings;
@@ -42,7 +42,7 @@ std::vector<RawParameter> settings_in(const std::vector<RawParameter>& parameter
   return settings;
 }
 
-/// The element that a complaint about the setting `key` means.
+/// The element that an error message about the setting `key` refers to.
 std::string element_of(const std::vector<RawParameter>& parameters, const std::string& key) {
   if (last_of(parameters, key) != nullptr) return key;
   for (const auto& [sdf, setting] : kSynonyms) {
@@ -51,7 +51,8 @@ std::string element_of(const std::vector<RawParameter>& parameters, const std::s
   return key;
 }
 
-/// Throws a complaint that begins with a setting's key in SDF's words and with its place.
+/// Throws Error with a message that begins with a setting's key, named as in SDF and with its
+/// location.
 [[noreturn]] void fail_in_sdf_words(const std::string& message,
                                     const std::vector<RawParameter>& parameters,
                                     const Location& location, IsSetting is_setting) {
@@ -63,7 +64,7 @@ std::string element_of(const std::vector<RawParameter>& parameters, const std::s
        "<" + element + ">" + message.substr(key.size()));
 }
 
-/// What `make` makes of the settings and of warnings that it may add to.
+/// The result of `make` for the settings; its warnings and errors are given their SDF location.
 template <class Make>
 auto made(const std::vector<RawParameter>& parameters, const Location& location,
           IsSetting is_setting, Diagnostics& diagnostics, const Make& make) {
@@ -77,8 +78,8 @@ auto made(const std::vector<RawParameter>& parameters, const Location& location,
   }
 }
 
-/// Of settings among `parameters` that change nothing in the model that they made, RadioModel or
-/// TagModel. The published parameters give way in silence, as every published sensor has them.
+/// Warns about settings among `parameters` that have no effect in the model made from them,
+/// RadioModel or TagModel. The published parameters are exempt, as every published sensor has them.
 template <class Model>
 void warn_of_idle(const std::vector<RawParameter>& parameters, const Model& model,
                   Diagnostics& found) {
@@ -88,7 +89,7 @@ void warn_of_idle(const std::vector<RawParameter>& parameters, const Model& mode
   }
 }
 
-/// The paper's model has elements of its own, and one that all have.
+/// The paper's model has elements of its own, and shares one with all models.
 void require_no_setting(const std::vector<RawParameter>& parameters) {
   for (const RawParameter& parameter : parameters) {
     if (!is_antenna_setting(parameter.key) || parameter.key == "sensitivity_dbm") continue;

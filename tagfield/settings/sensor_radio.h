@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Physical models as an SDF sensor's plugin describes them: the settings of radio_settings.h as
+/// Physical models as described by an SDF sensor's plugin: the settings in radio_settings.h as
 /// elements.
 #pragma once
 
@@ -13,19 +13,19 @@
 
 namespace tagfield {
 
-/// What an antenna's `model` (paper where it is not given) and its settings describe; null for the
-/// paper's model, beside which a setting is an error. `frequency` is the carrier and `phase_offset`
-/// φ0 where no setting says else. Later elements go before earlier ones. Throws Error that names
-/// the element as it stands in SDF, with its place where that is known.
+/// The model described by an antenna's `model` (default: paper) and its settings; null for the
+/// paper's model, in which settings are an error. `frequency` is the carrier and `phase_offset` φ0
+/// unless a setting overrides them. Later elements override earlier ones. Throws Error that names
+/// the element as in SDF, with its location if known.
 std::shared_ptr<const RadioModel> sensor_radio(const std::vector<RawParameter>& parameters,
                                                const Location& location, Diagnostics& diagnostics);
 
-/// What kind of tag the settings describe; null where there is none. Throws likewise.
+/// The kind of tag described by the settings; null if there are none. Throws Error as above.
 std::shared_ptr<const TagModel> sensor_tag_model(const std::vector<RawParameter>& parameters,
                                                  const Location& location,
                                                  Diagnostics& diagnostics);
 
-/// Keys of the settings, of an antenna or of a tag.
+/// Keys of all settings of an antenna, and of a tag.
 std::vector<std::string> antenna_setting_keys();
 std::vector<std::string> tag_setting_keys();
 

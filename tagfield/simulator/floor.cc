@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// Those that stand in one place from the beginning on.
+/// The stationary obstacles that never disappear.
 Obstacles standing(const std::vector<ObstacleSpec>& specs) {
   std::vector<ObstacleSpec> kept;
   for (const ObstacleSpec& spec : specs) {
@@ -85,9 +85,9 @@ std::vector<Eigen::Vector2d> reachable_floor(const OccupancyGrid& truth,
   return floor;
 }
 
-PlanarPose random_place(const std::vector<Eigen::Vector2d>& floor, RandomStream& stream) {
+PlanarPose random_position(const std::vector<Eigen::Vector2d>& floor, RandomStream& stream) {
   if (floor.empty()) throw Error("there is no floor that the robot could be on");
-  // Of 64 random bits, so that no place is noticeably likelier than another.
+  // From 64 random bits, so that no position is noticeably likelier than another.
   const Eigen::Vector2d& place = floor[stream() % floor.size()];
   return {place.x(), place.y(), wrap_to_pi(kTwoPi * uniform(stream))};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where in a world a robot can get to.
+/// The floor of a world that a robot can reach.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,10 +14,10 @@
 
 namespace tagfield {
 
-/// Middles of those free cells of `truth` that a disc of `radius_m` can be moved to from `start`,
-/// or from the nearest place to it, within kNearStart, where such a disc fits, without touching a
-/// solid, an obstacle that always stands, or unknown ground. In the order of the cells; none where
-/// it fits nowhere near the start.
+/// Centres of the free cells of `truth` that a disc of `radius_m` can reach from `start` without
+/// touching a solid, a stationary permanent obstacle, or unknown ground. If the disc does not fit
+/// at `start`, it begins at the nearest cell within kNearStart where it fits. In the order of the
+/// cells; empty if there is no such cell.
 std::vector<Eigen::Vector2d> reachable_floor(const OccupancyGrid& truth,
                                              const RobotClearance& clearance,
                                              const std::vector<ObstacleSpec>& obstacles,
@@ -25,7 +25,8 @@ std::vector<Eigen::Vector2d> reachable_floor(const OccupancyGrid& truth,
 
 inline constexpr double kNearStart = 0.5;  ///< [m]
 
-/// One of the places, each as likely, turned any way. Throws Error where there is none.
-PlanarPose random_place(const std::vector<Eigen::Vector2d>& floor, RandomStream& stream);
+/// A uniformly random position of `floor`, with a uniformly random heading. Throws Error if `floor`
+/// is empty.
+PlanarPose random_position(const std::vector<Eigen::Vector2d>& floor, RandomStream& stream);
 
 }  // namespace tagfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Who is told what robots know and see that find their way by themselves.
+/// Listener for the maps, scans and beliefs of robots that navigate by themselves.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace tagfield {
 
-/// All calls come from the thread that simulates. The map's frame M is the world's.
+/// All calls come from the simulation thread. The map's frame M is the world's.
 class NavigationListener {
  public:
   NavigationListener() = default;
@@ -19,9 +19,9 @@ class NavigationListener {
   NavigationListener(const NavigationListener&) = delete;
   NavigationListener& operator=(const NavigationListener&) = delete;
 
-  /// The map that robots drive by, before the first scan; made by a robot or given.
+  /// The map that robots navigate with, made by a robot or given; called before the first scan.
   virtual void on_map(const OccupancyGrid& map) = 0;
-  /// pose_M is where the robot believes to have been at the scan's stamp.
+  /// pose_M is the robot's believed pose at the scan's timestamp.
   virtual void on_scan(const std::string& robot, const PlanarPose& pose_M,
                        const LaserScan& scan) = 0;
 };

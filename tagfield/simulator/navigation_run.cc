@@ -14,12 +14,12 @@
 namespace tagfield {
 namespace {
 
-/// Of the whole of a run by laser, mapping has this share on the progress bar.
+/// Share of the progress bar for mapping.
 constexpr double kMappingShare = 0.7;
-/// A guess, for the bar: a hall takes some minutes to map.
+/// A guess for the bar: mapping a hall takes a few minutes.
 constexpr double kUsualMapping_s = 240.0;
 
-/// The map to drive by, and where the robot stands on it.
+/// The map to navigate with, and the robot's pose on it.
 SelfDriving find_map(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                      const NavigationWorld& world, NavigationRun& navigation) {
   const RobotSpec& robot = mapping_robot(scenario);
@@ -38,7 +38,7 @@ SelfDriving find_map(const Scenario& scenario, std::uint64_t seed, const RunCont
   return {&world, &navigation.map, &*made.walls, made.true_end_W, made.end};
 }
 
-/// Counts how often the robots come to touch anything, and how near they come.
+/// Counts contacts of the robots with anything, and measures how close they come.
 class TouchWatch {
  public:
   TouchWatch(const NavigationWorld& world, NavigationRun& navigation)
@@ -62,25 +62,25 @@ class TouchWatch {
   std::map<std::string, bool> touches_;
 };
 
-/// Watches at 10 Hz how well the robots know their poses.
+/// Measures at 10 Hz how well the robots know their poses.
 class BeliefWatch {
  public:
   BeliefWatch(const Scenario& scenario, NavigationRun& navigation)
-      : is_told_(navigation_of(scenario).start == StartBelief::kKnown), navigation_(navigation) {}
+      : is_given_(navigation_of(scenario).start == StartBelief::kKnown), navigation_(navigation) {}
 
   void look(const Robot& robot, Time now) {
     const auto [entry, is_new] = places_.try_emplace(robot.name());
     Place& place = entry->second;
-    if (is_new && !is_told_) place.watch.put(PlaceLoss::kStart);
-    if (robot.times_carried() > place.times_carried) place.watch.put(PlaceLoss::kCarried);
+    if (is_new && !is_given_) place.watch.put(PositionLoss::kStart);
+    if (robot.times_carried() > place.times_carried) place.watch.put(PositionLoss::kCarried);
     place.times_carried = robot.times_carried();
     const PlanarPose truth = planar(robot.true_pose(0.0));
     const PlanarPose belief = planar(robot.believed_pose(0.0));
     const double off_m = (position_of(truth) - position_of(belief)).norm();
     const double off_rad = std::abs(wrap_to_pi(belief.yaw - truth.yaw));
-    const bool knows_place = robot.self_driver()->knows_place();
-    place.watch.look({now, robot.travelled_m(), knows_place, off_m, off_rad});
-    if (!knows_place) return;
+    const bool knows_position = robot.self_driver()->knows_position();
+    place.watch.look({now, robot.travelled_m(), knows_position, off_m, off_rad});
+    if (!knows_position) return;
     navigation_.position_errors_m.push_back(off_m);
     navigation_.yaw_errors_rad.push_back(off_rad);
   }
@@ -99,7 +99,7 @@ class BeliefWatch {
     PlaceWatch watch;
     std::size_t times_carried = 0;
   };
-  bool is_told_;
+  bool is_given_;
   NavigationRun& navigation_;
   std::map<std::string, Place> places_;
 };
@@ -111,10 +111,10 @@ void tell_scans(const Robot& robot, NavigationListener* listener) {
   }
 }
 
-/// How often beliefs are looked at [s].
+/// Sampling interval of beliefs [s].
 constexpr double kBeliefInterval = 0.1;
 
-/// The drive, once there is a map.
+/// The drive after mapping.
 void drive(const Scenario& scenario, const RunControl& control, const NavigationWorld& world,
            Simulation& simulation, NavigationRun& navigation) {
   TouchWatch touches(world, navigation);

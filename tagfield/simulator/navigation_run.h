@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A run of robots that find their way by themselves, with what is watched on the way.
+/// A run of robots that navigate by themselves, and what is measured during it.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@
 
 namespace tagfield {
 
-/// How robots found their way in one run.
+/// Results of the navigation in one run.
 struct NavigationRun {
-  std::optional<Survey> survey;  ///< None where the map was given.
-  OccupancyGrid map;             ///< Driven by.
+  std::optional<Survey> survey;  ///< None if the map was given.
+  OccupancyGrid map;             ///< The map used for navigation.
   std::vector<GoalOutcome> goals;
-  std::vector<double> position_errors_m;  ///< Of the belief at 10 Hz,
-  std::vector<double> yaw_errors_rad;     ///< absolute.
-  double closest_m = 0.0;         ///< Least distance between a robot's outline and anything,
-  int collisions = 0;             ///< and how often it came to touch; both while mapping, too.
+  std::vector<double> position_errors_m;  ///< Of the believed pose at 10 Hz,
+  std::vector<double> yaw_errors_rad;     ///< absolute values.
+  double closest_m = 0.0;         ///< Minimum distance between a robot's outline and anything,
+  int collisions = 0;             ///< and number of contacts; both include mapping.
   std::vector<Finding> findings;  ///< Of all robots.
   int times_lost = 0;
 };
 
-/// What came of such a run.
+/// Result of such a run.
 struct NavigatedRun {
   NavigationRun navigation;
   bool complete = true;
@@ -37,8 +37,8 @@ struct NavigatedRun {
   double path_length_m = 0.0;
 };
 
-/// Makes the map, where the scenario gives none, and drives by it. `outlets` are told what antennas
-/// read.
+/// Makes the map unless the scenario gives one, and navigates with it. `outlets` receive what
+/// antennas read.
 NavigatedRun run_navigation(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                             const NavigationWorld& world, Outlets outlets);
 

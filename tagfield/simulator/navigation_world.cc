@@ -17,15 +17,15 @@
 namespace tagfield {
 namespace {
 
-/// Places that are drawn are so many cells of the map farther from everything than they must be.
+/// Additional distance of random poses from everything, in cells of the map.
 constexpr double kSpareCells = 2.0;
 
 double laser_height(const NavigationSpec& navigation) {
   return navigation.laser.X_RL.translation.z();
 }
 
-/// What a laser on the robot can see of the world. False walls are counted against all that is
-/// there, so cells seen by nobody stay as they are.
+/// What a laser on the robot can see of the world. False walls are counted against everything that
+/// exists, so cells that nobody can see stay as they are.
 OccupancyGrid visible_truth(const Scene& scene, const NavigationSpec& navigation,
                             const RobotSpec& robot, double resolution_m) {
   const Eigen::Vector2d start = position_of(robot.start);
@@ -57,7 +57,7 @@ void require_good_starts(const Scenario& scenario, const RobotClearance& clearan
   }
 }
 
-/// Throws Error where a robot is put into something, or out of the world.
+/// Throws Error if a robot is carried into something, or out of the world.
 void require_good_carryings(const Scenario& scenario, const RobotClearance& clearance,
                             const OccupancyGrid& truth) {
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
@@ -77,7 +77,7 @@ void require_good_carryings(const Scenario& scenario, const RobotClearance& clea
   }
 }
 
-/// Whether a place has to be drawn for a robot.
+/// Whether a random pose is needed for a robot.
 bool draws_places(const Scenario& scenario) {
   return navigation_of(scenario).start == StartBelief::kRandom ||
          std::any_of(scenario.robots.begin(), scenario.robots.end(), [](const RobotSpec& robot) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A simulation in step with the wall clock.
+/// A simulation synchronized with the wall clock.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@
 
 namespace tagfield {
 
-/// Sleeps until the wall clock is as far as the simulation at its pace.
+/// Sleeps until the wall clock, scaled by `real_time`, has caught up with the simulation.
 class Pace {
  public:
   explicit Pace(double real_time) : real_time_(real_time) {}

@@ -4,7 +4,7 @@
 namespace tagfield {
 
 void PlaceWatch::look(const PlaceGlance& glance) {
-  if (!put_ && !is_open_ && knew_place_ && !glance.knows_place) put_ = PlaceLoss::kLost;
+  if (!put_ && !is_open_ && knew_place_ && !glance.knows_position) put_ = PositionLoss::kLost;
   if (put_) {
     findings_.push_back({*put_, false, std::nullopt, 0.0, 0});
     begin_ = glance;
@@ -13,13 +13,13 @@ void PlaceWatch::look(const PlaceGlance& glance) {
     put_.reset();
   }
   const bool knew_place = knew_place_;
-  knew_place_ = glance.knows_place;
+  knew_place_ = glance.knows_position;
   if (!is_open_) return;
   Finding& finding = findings_.back();
   const bool is_right = glance.off_m < kRight_m && glance.off_rad < kRight_rad;
-  if (!glance.knows_place) finding.noticed = true;
-  if (glance.knows_place && !knew_place && !is_right) ++finding.wrong;
-  if (!glance.knows_place || !is_right) {
+  if (!glance.knows_position) finding.noticed = true;
+  if (glance.knows_position && !knew_place && !is_right) ++finding.wrong;
+  if (!glance.knows_position || !is_right) {
     right_.reset();
     return;
   }

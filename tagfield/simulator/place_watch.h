@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Whether a robot that was not told where it is finds out, judged against the truth.
+/// Whether a robot with unknown pose finds it out, compared with the ground truth.
 #pragma once
 
 #include <optional>
@@ -10,53 +10,55 @@
 
 namespace tagfield {
 
-/// Why a robot does not know where it is.
-enum class PlaceLoss {
-  kStart,    ///< It was not told.
-  kCarried,  ///< It was put elsewhere.
-  kLost,     ///< It gave its place up by itself.
+/// Why a robot does not know its pose.
+enum class PositionLoss {
+  kStart,    ///< Its start pose is unknown.
+  kCarried,  ///< It was moved elsewhere.
+  kLost,     ///< It lost its pose by itself.
 };
 
-/// One time that a robot had to find out where it is.
+/// One occasion on which a robot had to find out its pose.
 struct Finding {
-  PlaceLoss why = PlaceLoss::kStart;
-  bool noticed = false;  ///< That it does not know.
-  /// Until it knew its place and went on knowing it; none where it never did.
+  PositionLoss why = PositionLoss::kStart;
+  bool noticed = false;  ///< Whether it noticed that it does not know its pose.
+  /// Time until it knew its pose and kept knowing it; none if it never did.
   std::optional<double> seconds;
-  double driven_m = 0.0;  ///< Likewise; without turns on the spot.
-  int wrong = 0;          ///< Times that it believed to have found itself and was elsewhere.
+  double driven_m = 0.0;  ///< Distance driven until then, without turns on the spot.
+  int wrong = 0;          ///< Number of times it wrongly believed it had found its pose.
 };
 
-/// What there is to see of a robot at one moment.
+/// The state of a robot at one time.
 struct PlaceGlance {
   Time now;
-  double driven_m = 0.0;     ///< In all.
-  bool knows_place = false;  ///< As it believes.
-  double off_m = 0.0;        ///< Distance between believed and true place.
-  double off_rad = 0.0;      ///< Likewise of the heading, ≥ 0.
+  double driven_m = 0.0;        ///< In total.
+  bool knows_position = false;  ///< By its own belief.
+  double off_m = 0.0;           ///< Distance between believed and true position.
+  double off_rad = 0.0;         ///< Same, but of the heading, ≥ 0.
 };
 
-/// A robot is right that is off by less than kRight_m and kRight_rad, and knows its place once it
-/// has believed so and been right for kHolds_s running; the time and way are those at its first.
+/// A robot's belief is right if it is off by less than kRight_m and kRight_rad. The robot has found
+/// its pose once it has believed to know it and been right for kHolds_s without interruption; time
+/// and distance are those at the beginning of that interval.
 class PlaceWatch {
  public:
   static constexpr double kRight_m = 0.5;
   static constexpr double kRight_rad = 0.2;
   static constexpr double kHolds_s = 1.0;
 
-  /// From the next glance on the robot is where it does not know. What it loses by itself is seen.
-  void put(PlaceLoss why) { put_ = why; }
+  /// From the next glance on the robot is at an unknown pose. A loss by itself (kLost) is detected
+  /// without this call.
+  void put(PositionLoss why) { put_ = why; }
   void look(const PlaceGlance& glance);
-  /// All up to now, in order of time.
+  /// All findings so far, in chronological order.
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
  private:
   std::vector<Finding> findings_;
-  std::optional<PlaceLoss> put_;
-  bool is_open_ = false;              ///< The last of them is not at its end.
+  std::optional<PositionLoss> put_;
+  bool is_open_ = false;              ///< The last finding is not complete.
   bool knew_place_ = false;           ///< At the last glance.
-  PlaceGlance begin_;                 ///< Of the last of them.
-  std::optional<PlaceGlance> right_;  ///< Since when it has been right.
+  PlaceGlance begin_;                 ///< Of the last finding.
+  std::optional<PlaceGlance> right_;  ///< Beginning of the interval in which it has been right.
 };
 
 }  // namespace tagfield

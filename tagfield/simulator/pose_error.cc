@@ -37,7 +37,7 @@ WheelSpeeds measured_wheel_speeds(const PoseBelief& belief, const DriveGeometry&
                                   std::uint64_t robot_key, std::uint64_t step) {
   RandomStream stream(seed, Purpose::kOdometry, robot_key, step);
   const auto [left, right] = standard_normal_pair(stream);
-  const double metres = drive.wheel_radius_m * seconds;  // Travel for each rad/s.
+  const double metres = drive.wheel_radius_m * seconds;  // Travel per rad/s.
   const auto measured = [&](double speed, double draw) {
     return speed + belief.wheel_noise * std::sqrt(std::abs(speed) * metres) * draw / metres;
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a robot believes of its own pose: the truth, the truth with a stated error, what its wheels
-/// tell, or what it finds by laser and map.
+/// A robot's belief of its own pose: the truth, the truth with a stated error, wheel odometry, or
+/// localization by laser and map.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ namespace tagfield {
 /// Error in x, y, yaw.
 using PoseError = PlanarPose;
 
-/// Error at the first step: drawn from the stationary distribution.
+/// Error at the first step, drawn from the stationary distribution.
 PoseError first_pose_error(const PoseBelief& belief, std::uint64_t seed, std::uint64_t robot_key);
 
-/// Error `seconds` after `error`: the process' exact discretization. `step` numbers the draw.
+/// Error `seconds` after `error`: the exact discretization of the process. `step` numbers the draw.
 PoseError next_pose_error(const PoseBelief& belief, const PoseError& error, double seconds,
                           std::uint64_t seed, std::uint64_t robot_key, std::uint64_t step);
 

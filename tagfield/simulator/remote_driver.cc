@@ -23,8 +23,8 @@ BodyVelocity RemoteDriver::step(const PlanarPose& begin_W, Time now, double seco
   return velocity_;
 }
 
-/// Pose and velocity are what the wheels say. Their variances are those of the motion that there
-/// was: over one step the wheels' noise would look like turning, and make them too large.
+/// Pose and velocity are those of the wheel odometry. Their variances are computed from the true
+/// motion: over one step the wheels' noise would look like turning and make them too large.
 OdometryReport RemoteDriver::report(Time now) {
   const double seconds = senses_.present_seconds();
   OdometryReport report;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A simulated robot that somebody outside drives: velocities in, wheels and laser out.
+/// A simulated robot driven remotely: velocities in, odometry and scans out.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace tagfield {
 
-/// Who drives. All calls come from the thread that simulates.
+/// The remote driver. All calls come from the simulation thread.
 class RemoteControl {
  public:
   RemoteControl() = default;
@@ -22,22 +22,23 @@ class RemoteControl {
   RemoteControl(const RemoteControl&) = delete;
   RemoteControl& operator=(const RemoteControl&) = delete;
 
-  /// The velocity that the robot is to have from `now` on, as far as its limits let it.
+  /// The commanded velocity from `now` on, which the robot follows within its limits.
   virtual BodyVelocity wanted(Time now) = 0;
-  /// By the wheels, with their errors: X_OR at the stamp, and the mean velocity over the step
-  /// before. Frame O is where the robot started.
+  /// Wheel odometry, with its errors: X_OR at the timestamp, and the mean velocity over the
+  /// previous step. Frame O is the robot's start pose.
   virtual void on_odometry(const OdometryReport& report) = 0;
   virtual void on_scan(const LaserScan& scan) = 0;
 };
 
-/// Which robot of a scenario is driven, by whom, and in what world.
+/// Which robot of a scenario is driven, by whom, and in which world.
 struct RemoteDriving {
   std::string robot;
   std::shared_ptr<RemoteControl> control;
   LaserWorld world;
 };
 
-/// The robot's side of it. Walls don't stop it: whoever drives has a laser.
+/// The robot's side. Walls don't stop it: avoiding them is up to the remote driver, which has the
+/// scans.
 class RemoteDriver {
  public:
   RemoteDriver(const RemoteDriving& driving, const NavigationSpec& navigation, std::uint64_t seed,
@@ -45,7 +46,7 @@ class RemoteDriver {
 
   /// As SelfDriver::step().
   BodyVelocity step(const PlanarPose& begin_W, Time now, double seconds);
-  /// X_OR by the wheels, `seconds` after the present step's beginning.
+  /// X_OR by wheel odometry, `seconds` after the beginning of the current step.
   [[nodiscard]] PlanarPose odometry(double seconds) const { return senses_.odometry(seconds); }
 
  private:

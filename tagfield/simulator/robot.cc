@@ -63,7 +63,7 @@ void Robot::step(Time now, double seconds) {
     begin_ = spec_.carried[times_carried_++].to_W.value_or(begin_);
   }
 
-  // Commands go through the wheels, which is all that a skid-steered robot has.
+  // Commands are executed by the wheels, the only actuators of a skid-steered robot.
   const WheelSpeeds wheels = wheel_speeds(spec_.drive, wanted(now, seconds));
   velocity_ = body_velocity(spec_.drive, wheels);
   travelled_m_ += std::abs(velocity_.forward) * seconds;

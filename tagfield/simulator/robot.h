@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A robot that drives: where it is, and where it believes to be.
+/// A robot that drives: its true pose and its believed pose.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,35 +20,36 @@ namespace tagfield {
 class RemoteDriver;
 class SelfDriver;
 
-/// One robot during one time step after another. Frame R is its base on the floor, x forward.
+/// One robot, simulated step by step. Frame R is its base on the floor, x forward.
 class Robot {
  public:
   Robot(const RobotSpec& spec, const PoseBelief& belief, std::uint64_t seed);
-  /// Finds its way by itself, from spec.start on. Each of spec.carried has its `to_W`.
+  /// A robot that navigates by itself, from spec.start on. Each of spec.carried must have its
+  /// `to_W`.
   Robot(const RobotSpec& spec, std::unique_ptr<SelfDriver> driver, std::uint64_t seed);
-  /// Is driven by somebody outside, and believes its wheels. Never arrives.
+  /// A robot that is driven remotely and believes its wheel odometry. It never arrives.
   Robot(const RobotSpec& spec, std::unique_ptr<RemoteDriver> driver, std::uint64_t seed);
   ~Robot();
   Robot(Robot&&) noexcept;
   Robot& operator=(Robot&&) noexcept;
 
-  /// Goes one time step on, which begins at `now`; true_pose and believed_pose then speak of that
-  /// step.
+  /// Advances by one time step, which begins at `now`; true_pose and believed_pose then refer to
+  /// that step.
   void step(Time now, double seconds);
 
-  /// X_WR at `seconds` after the current step's beginning, between 0 and its length.
+  /// X_WR at `seconds` after the beginning of the current step, from 0 to its length.
   [[nodiscard]] RigidTransform true_pose(double seconds) const;
   [[nodiscard]] RigidTransform believed_pose(double seconds) const;
 
   [[nodiscard]] const std::string& name() const { return spec_.name; }
-  /// Whether it stands at its last waypoint, or has given it up.
+  /// Whether the robot has reached or given up its last waypoint or goal.
   [[nodiscard]] bool finished() const;
-  /// None where it follows its waypoints with its eyes shut.
+  /// Null if the robot does not navigate by itself.
   [[nodiscard]] const SelfDriver* self_driver() const { return self_driver_.get(); }
-  /// Way driven up to the current step's end [m].
+  /// Distance driven up to the end of the current step [m].
   [[nodiscard]] double travelled_m() const { return travelled_m_; }
   [[nodiscard]] std::size_t times_carried() const { return times_carried_; }
-  /// Share of its way or of its goals that is behind it, 0 to 1.
+  /// Share of its path or of its goals that is done, 0 to 1.
   [[nodiscard]] double progress() const;
 
  private:
@@ -67,12 +68,12 @@ class Robot {
   double step_seconds_ = 0.0;
   double travelled_m_ = 0.0;
   std::size_t times_carried_ = 0;
-  PlanarPose begin_;       ///< True pose as the step begins.
+  PlanarPose begin_;       ///< True pose at the beginning of the step.
   BodyVelocity velocity_;  ///< During the step.
-  PlanarPose odometry_;    ///< Dead-reckoned pose as the step begins.
-  BodyVelocity measured_;  ///< By the wheels during the step.
-  PoseError error_begin_;  ///< Of a noisy belief as the step begins,
-  PoseError error_end_;    ///< and as it ends.
+  PlanarPose odometry_;    ///< Dead-reckoned pose at the beginning of the step.
+  BodyVelocity measured_;  ///< By wheel odometry during the step.
+  PoseError error_begin_;  ///< Of a noisy belief at the beginning of the step,
+  PoseError error_end_;    ///< and at its end.
 };
 
 }  // namespace tagfield

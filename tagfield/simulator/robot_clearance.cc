@@ -13,9 +13,9 @@ namespace tagfield {
 namespace {
 
 constexpr double kResolution = 0.02;
-/// Beyond this from the origin nothing is of interest: a robot's map has some 100 m.
+/// Nothing farther than this from the origin is of interest: a robot's map spans about 100 m.
 constexpr double kFarthest = 200.0;
-/// About solids the grid goes on for so long.
+/// Margin of the grid around solids.
 constexpr double kBeyond = 2.0;
 
 OccupancyGrid empty_grid_around(const std::vector<Silhouette>& solids) {
@@ -46,7 +46,7 @@ Eigen::Vector2d half_of(const RobotOutline& outline) {
   return {outline.length_m / 2.0, outline.width_m / 2.0};
 }
 
-/// Of a point in the robot's frame; 0 inside.
+/// Distance to a point in the robot's frame; 0 inside.
 double distance_to_point(const RobotOutline& outline, const Eigen::Vector2d& p_R) {
   return (p_R.cwiseAbs() - half_of(outline)).cwiseMax(0.0).norm();
 }
@@ -58,7 +58,8 @@ double point_to_line(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const E
   return (a + share * way - p).norm();
 }
 
-/// Whether the line from a to b passes through the rectangle about the origin (Liang and Barsky).
+/// Whether the line from a to b passes through the rectangle centred on the origin (Liang and
+/// Barsky).
 bool crosses(const Eigen::Vector2d& half, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   double from = 0.0;
   double to = 1.0;
@@ -76,12 +77,12 @@ bool crosses(const Eigen::Vector2d& half, const Eigen::Vector2d& a, const Eigen:
   return from <= to;
 }
 
-/// Of a box on the floor, whose frame is B.
+/// Distance to a box on the floor, whose frame is B.
 double distance_to_box(const RobotOutline& outline, const PlanarPose& pose_W,
                        const Rectangle& box) {
   const PlanarPose q_WB{box.centre.x(), box.centre.y(), box.yaw};
   const PlanarPose q_BR = between(q_WB, pose_W);
-  // The robot may be inside of the box, where it touches no edge.
+  // The robot may be inside the box without touching an edge.
   if (((position_of(q_BR).cwiseAbs() - box.size / 2.0).array() <= 0.0).all()) return 0.0;
   const PlanarPose q_RB = between(pose_W, q_WB);
   const auto corner = [&](double x, double y) {
@@ -142,7 +143,7 @@ void RobotClearance::add_edge(const Edge& edge) {
 double RobotClearance::room_at(const Eigen::Vector2d& p_W) const {
   const Eigen::Vector2i cell = grid_.cell_of(p_W);
   if (!grid_.contains(cell.x(), cell.y())) return kBeyond;
-  // From centre to centre: either may be half a diagonal off.
+  // From centre to centre: each may be off by half a diagonal.
   const double between_centres = distances_[grid_.index(cell.x(), cell.y())];
   return std::max(between_centres - std::sqrt(2.0) * kResolution, 0.0);
 }

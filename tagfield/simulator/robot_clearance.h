@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How near a robot comes to what stands in the world.
+/// The clearance of a robot from what is in the world.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,38 +16,38 @@
 
 namespace tagfield {
 
-/// What a P3-AT's wheels roll over [m]; what is lower is a floor, or its unevenness.
+/// Height that a P3-AT's wheels roll over [m]; anything lower is floor, or its unevenness.
 inline constexpr double kRolledOver = 0.06;
 
-/// A robot seen from above: a rectangle about its base, x forward. The default is a P3-AT with its
-/// wheels.
+/// A robot seen from above: a rectangle centred on its base, x forward. The default is a P3-AT with
+/// its wheels.
 struct RobotOutline {
   double length_m = 0.51;
   double width_m = 0.50;
   double height_m = 0.36;
 };
 
-/// Distance between the robot's outline at the origin, x forward, and the straight line from `a` to
-/// `b` [m]; 0 where they touch.
+/// Distance between the robot's outline at the origin, x forward, and the line segment from `a` to
+/// `b` [m]; 0 if they touch.
 double distance_to_line(const RobotOutline& outline, const Eigen::Vector2d& a,
                         const Eigen::Vector2d& b);
 
-/// The world's solids between the floor and the robot's height, from above.
+/// The world's solids between the floor and the robot's height, seen from above.
 class RobotClearance {
  public:
-  /// Neither distance() nor room_at() gives more than these [m].
+  /// Upper limits of distance() and room_at() [m].
   static constexpr double kMost = 1.0;
   static constexpr double kMostRoom = 10.0;
 
   RobotClearance(const Scene& scene, const RobotOutline& outline);
 
-  /// Least distance between the robot's outline and a solid or an obstacle [m], 0 where they touch
-  /// or it is inside of an obstacle. Solids are as top_view() has them, to 1 mm: hollow, if they
-  /// are taller than the robot, as a hall is.
+  /// Minimum distance between the robot's outline and a solid or an obstacle [m], 0 if they touch
+  /// or the robot is inside an obstacle. Solids are as in top_view(), to 1 mm; those taller than
+  /// the robot are hollow, as a hall is.
   [[nodiscard]] double distance(const PlanarPose& pose_W, const Obstacles& obstacles) const;
 
-  /// Least distance from a point to a solid [m], to 3 cm below and nothing above; 10 m where all is
-  /// farther, 2 m outside of where anything stands.
+  /// Minimum distance from a point to a solid [m], underestimated by up to 6 cm and never
+  /// overestimated; 10 m if all solids are farther, 2 m outside the area around the solids.
   [[nodiscard]] double room_at(const Eigen::Vector2d& p_W) const;
 
  private:
@@ -57,7 +57,7 @@ class RobotClearance {
   [[nodiscard]] double distance_to_solids(const PlanarPose& pose_W) const;
 
   RobotOutline outline_;
-  double reach_m_;  ///< From the robot's base to all that is nearer than kMost.
+  double reach_m_;  ///< From the robot's base to anything closer than kMost.
   OccupancyGrid grid_;
   std::vector<float> distances_;
   std::map<std::pair<int, int>, std::vector<Edge>> edges_;  ///< By square metre within reach.

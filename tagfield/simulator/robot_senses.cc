@@ -33,7 +33,7 @@ std::vector<SensedScan> RobotSenses::step(const PlanarPose& begin_W, const BodyV
   const Time end = now + duration_from_seconds(seconds);
   while (scan_stamp(laser_, next_scan_) + sweep < now) ++next_scan_;
   for (; scan_stamp(laser_, next_scan_) + sweep < end; ++next_scan_) {
-    // One that began before all that is known of the motion is left out.
+    // Scans that began before the recorded motion are left out.
     if (scan_stamp(laser_, next_scan_) >= motions_.front().begin) scans.push_back(scan(next_scan_));
   }
   return scans;

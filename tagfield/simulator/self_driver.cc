@@ -12,18 +12,20 @@ GoalDriverSettings with_speed(GoalDriverSettings settings, double speed_m_s) {
   return settings;
 }
 
-/// A belief so wide is none: the driver keeps clear of walls by centimetres.
+/// Beliefs wider than this are useless: the driver keeps clear of walls by centimetres.
 constexpr double kMostSigma_m = 0.3;
 constexpr double kMostSigma_rad = 0.2;
 
-/// Wandering, it heeds what it does not see so far around it [m]: more than a way is long.
+/// While wandering, the robot avoids unseen obstacles within this radius [m], which is longer than
+/// a path.
 constexpr double kHiddenWithin_m = 5.0;
 
-/// While less than this of a scan fits the map, it believes neither that a goal is reached nor that
-/// it can't be: the localizer's own limit, which waits for several such scans.
+/// While less than this share of a scan fits the map, the robot believes neither that a goal is
+/// reached nor that it can't be. It is the localizer's own limit, which waits for several such
+/// scans.
 constexpr double kDoubtfulFit = 0.5;
 
-/// Where `full` is occupied and `map`, of the same cells, is not.
+/// Cell centres where `full` is occupied and `map`, with the same cells, is not.
 std::vector<Eigen::Vector2d> occupied_beside(const OccupancyGrid& full, const OccupancyGrid& map) {
   std::vector<Eigen::Vector2d> places;
   for (int y = 0; y < full.height; ++y) {
@@ -74,7 +76,7 @@ SelfDriver::SelfDriver(const NavigationSpec& navigation, double speed_m_s,
   driver_.set_map(full);
   hidden_M_ = occupied_beside(full, map);
   if (start) localizer_.start_at(*start);
-  knows_place_ = start.has_value();
+  knows_position_ = start.has_value();
 }
 
 PoseEstimate SelfDriver::believed(double seconds) const {
@@ -91,11 +93,12 @@ double SelfDriver::progress() const {
              : static_cast<double>(outcomes_.size()) / static_cast<double>(goals_.size());
 }
 
-/// What was seen under a wrong belief would stand in wrong places.
+/// When the pose is found again, observations made with a wrong belief are discarded, as they would
+/// be at wrong positions.
 void SelfDriver::look_after_place(Time now) {
   const bool knows = is_sure(localizer_, believed(senses_.present_seconds()));
-  if (knows == knows_place_) return;
-  knows_place_ = knows;
+  if (knows == knows_position_) return;
+  knows_position_ = knows;
   if (knows) {
     driver_.forget();
   } else {
@@ -115,7 +118,7 @@ void SelfDriver::end_goal(DriveState state, const std::string& reason, const Pla
   has_doubted_ = false;
 }
 
-/// Once for each goal it looks for its place anew before it is done with the goal.
+/// Once per goal the robot restarts global localization before it ends the goal.
 bool SelfDriver::doubts_place() {
   if (!has_looked_ || has_doubted_ || localizer_.fit() >= kDoubtfulFit) return false;
   has_doubted_ = true;
@@ -134,7 +137,7 @@ void SelfDriver::look_after_goals(const PlanarPose& begin_W, const PlanarPose& p
   is_under_way_ = true;
 }
 
-/// As far as the best guess of its place tells. A hall's alike places have alike racks.
+/// According to the best guess of the pose. Places in a hall that look alike have similar racks.
 std::vector<Eigen::Vector2d> SelfDriver::hidden_things(const PlanarPose& odometry) const {
   const PlanarPose guess_M = localizer_.estimate_at(odometry).pose_M;
   std::vector<Eigen::Vector2d> hidden_O;
@@ -148,7 +151,7 @@ std::vector<Eigen::Vector2d> SelfDriver::hidden_things(const PlanarPose& odometr
 
 BodyVelocity SelfDriver::wanted(const PlanarPose& begin_W, Time now) {
   if (finished()) return {};
-  if (!knows_place_) {
+  if (!knows_position_) {
     if (!goal_given_) goal_given_ = now;
     if (to_seconds(now - lost_since_) <= kSearchLimit_s) {
       const PlanarPose odometry = senses_.odometry(senses_.present_seconds());
@@ -171,7 +174,7 @@ BodyVelocity SelfDriver::step(const PlanarPose& begin_W, Time now, double second
   scans_ = senses_.step(begin_W, velocity_, now, seconds);
   for (const SensedScan& sensed : scans_) {
     has_looked_ = localizer_.update(sensed.scan, sensed.odometry) || has_looked_;
-    if (knows_place_) {
+    if (knows_position_) {
       driver_.see(sensed.scan, believed_at(sensed));
     } else {
       wander_.see(sensed.scan, sensed.odometry);

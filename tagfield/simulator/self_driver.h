@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A simulated robot that finds its way by itself: it knows its pose from its laser, its wheels and
-/// a map, and drives to goals.
+/// A simulated robot that navigates by itself: it localizes itself by laser, odometry and a map,
+/// and drives to goals.
 #pragma once
 
 #include <cstdint>
@@ -18,43 +18,43 @@
 
 namespace tagfield {
 
-/// What became of a goal.
+/// The outcome of a goal.
 struct GoalOutcome {
   PlanarPose goal_M;
   DriveState state = DriveState::kIdle;
-  std::string reason;    ///< Where it was not reached.
-  PlanarPose truth_W;    ///< Where the robot was at the end.
-  double seconds = 0.0;  ///< From when it was given.
+  std::string reason;    ///< If it was not reached.
+  PlanarPose truth_W;    ///< True pose of the robot at the end.
+  double seconds = 0.0;  ///< Since the goal was given.
 };
 
-/// While it does not know where it is it wanders about by its laser; its goal has to wait. After
-/// kSearchLimit_s of that it gives all goals up. Where its scans don't fit the map at a goal's end,
-/// reached or not, it looks for its place anew.
+/// While the robot does not know its pose, it wanders using its laser, and its goal has to wait.
+/// After kSearchLimit_s of wandering it gives all goals up. If its scans don't fit the map when a
+/// goal ends, reached or not, it starts a new global localization.
 class SelfDriver {
  public:
   static constexpr double kSearchLimit_s = 300.0;
 
   /// Drives to `goals_M` one after another, at `speed_m_s`. Without a `start` it may be anywhere on
-  /// the map. `walls`: as MonteCarloLocalizer takes them.
+  /// the map. `walls`: as for MonteCarloLocalizer.
   SelfDriver(const NavigationSpec& navigation, double speed_m_s, const NavigationWorld& world,
              const OccupancyGrid& map, const HitGrid* walls,
              const std::optional<PoseEstimate>& start, const std::vector<PlanarPose>& goals_M,
              std::uint64_t seed, std::uint64_t key);
 
-  /// Decides the velocity for the step that begins at `now` with the robot at `begin_W`, and lets
-  /// the robot sense what it senses in that step.
+  /// Decides the velocity for the step that begins at `now` with the robot at `begin_W`, and
+  /// simulates the sensors in that step.
   BodyVelocity step(const PlanarPose& begin_W, Time now, double seconds);
 
-  /// Believed pose `seconds` after the present step's beginning.
+  /// Believed pose `seconds` after the beginning of the current step.
   [[nodiscard]] PoseEstimate believed(double seconds) const;
-  /// Those that ended in the present step, and where it believes to have been at their stamps.
+  /// Scans that ended in the current step, and the believed poses at their timestamps.
   [[nodiscard]] const std::vector<SensedScan>& scans() const { return scans_; }
   [[nodiscard]] PlanarPose believed_at(const SensedScan& sensed) const;
-  /// Whether it believes to know where it is.
-  [[nodiscard]] bool knows_place() const { return knows_place_; }
+  /// Whether the robot believes that it knows its pose.
+  [[nodiscard]] bool knows_position() const { return knows_position_; }
   /// Whether all goals are reached or given up.
   [[nodiscard]] bool finished() const { return outcomes_.size() == goals_.size(); }
-  /// Share of the goals that are behind it; 1 where there are none.
+  /// Share of the goals that are done; 1 if there are none.
   [[nodiscard]] double progress() const;
   [[nodiscard]] const std::vector<GoalOutcome>& outcomes() const { return outcomes_; }
   [[nodiscard]] const MonteCarloLocalizer& localizer() const { return localizer_; }
@@ -77,16 +77,16 @@ class SelfDriver {
   std::vector<GoalOutcome> outcomes_;
   BodyVelocity velocity_;
   std::vector<SensedScan> scans_;
-  std::vector<Eigen::Vector2d> hidden_M_;  ///< Where the map has what the laser does not see.
-  bool knows_place_ = true;
+  std::vector<Eigen::Vector2d> hidden_M_;  ///< Occupied cells that the laser does not see.
+  bool knows_position_ = true;
   Time lost_since_;
-  bool is_under_way_ = false;  ///< The driver has the present goal.
+  bool is_under_way_ = false;  ///< The driver has the current goal.
   std::optional<Time> goal_given_;
-  bool has_looked_ = false;   ///< A scan has been laid onto the map.
-  bool has_doubted_ = false;  ///< For the present goal.
+  bool has_looked_ = false;   ///< A scan has been matched to the map.
+  bool has_doubted_ = false;  ///< For the current goal.
 };
 
-/// Goals at the waypoints, each looking along the way that led there.
+/// Goals at the waypoints, each heading along the path segment that leads to it.
 std::vector<PlanarPose> goals_at(const PlanarPose& start,
                                  const std::vector<Eigen::Vector2d>& waypoints);
 

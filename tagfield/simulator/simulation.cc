@@ -96,7 +96,7 @@ void Simulation::remove_tag(const std::string& id) {
   hold_tag(number);
 }
 
-/// It moves no more by itself.
+/// The tag no longer moves by itself.
 void Simulation::hold_tag(std::uint32_t number) {
   std::erase_if(moving_tags_, [&](const auto& tag) { return tag.first == number; });
 }
@@ -141,7 +141,7 @@ void Simulation::update_antenna(const std::string& name) {
   if (found == antennas_.end()) throw Error(fmt::format("there is no antenna called '{}'", name));
   AntennaDue due;
   due.antenna = driver_.antenna(name);
-  // The last moment of the last step, as now is the next one's.
+  // The last instant of the last step, since now_ belongs to the next one.
   update({due}, std::max(Time{}, now_ - Duration(1)));
 }
 
@@ -175,11 +175,11 @@ void Simulation::step() {
   if (finished()) finish();
 }
 
-/// Lets tags appear and disappear that are due by `until`.
+/// Lets tags that are due by `until` appear and disappear.
 void Simulation::handle_events(Time until) {
   while (const auto tag = schedule_->next_to_appear(until)) add_tag(*tag);
   while (const auto id = schedule_->next_to_disappear(until)) {
-    // Whoever uses this class may have removed the tag already.
+    // The caller may have removed the tag already.
     if (tags_.count(*id) > 0) remove_tag(*id);
   }
 }
@@ -211,7 +211,7 @@ std::vector<MovingBody> Simulation::bodies_at(Time stamp) const {
   return bodies;
 }
 
-/// Where the antenna is, and where its robot believes it to be.
+/// Sets the antenna's true pose, and the pose believed by its robot.
 void Simulation::place(AntennaDue& due, Time stamp) const {
   const AntennaSpec& antenna = antennas_.at(due.antenna->parameters.name);
   due.X_WA = antenna_pose(antenna, stamp);
@@ -221,7 +221,7 @@ void Simulation::place(AntennaDue& due, Time stamp) const {
   due.X_PA = robot.believed_pose(seconds_into_step(stamp)) * mount_at(antenna, stamp);
 }
 
-/// All antennas that update at `stamp`, with all that can move where it is then.
+/// Updates all antennas due at `stamp`, with everything that moves at its pose then.
 void Simulation::update_at(Time stamp) {
   handle_events(stamp);
   update(driver_.take_due(stamp), stamp);

@@ -17,13 +17,13 @@
 namespace tagfield {
 namespace {
 
-/// How often the way is thought over, by the map as it is then [s].
+/// Interval of replanning on the current map [s].
 constexpr double kPlanningInterval = 1.0;
 constexpr double kPathInterval = 0.1;
-/// Believed spread of the pose that the mapping ends with: of the map's own making.
+/// Believed spread of the pose at the end of mapping, on the robot's own map.
 constexpr double kEndSigma_m = 0.02;
 constexpr double kEndSigma_rad = 0.01;
-/// The robot first stands still for so long [s], so that its first look is sharp, and then looks
+/// The robot first stands still for this time [s], so that its first scan is sharp, and then looks
 /// around: a full turn at this speed [rad/s].
 constexpr double kStandStill = 0.7;
 constexpr double kLookAround = 0.7;
@@ -98,7 +98,7 @@ class Surveyor {
   }
 
  private:
-  /// Takes up the map as it is now, and a new goal where there is none or it is of no use any more.
+  /// Adopts the current map, and sets a new goal if there is none or it is no longer useful.
   void think(const PlanarPose& believed) {
     const bool at_end = goal_ && driver_.state() != DriveState::kDriving;
     const bool due = !planned_ || to_seconds(now_ - *planned_) >= kPlanningInterval;

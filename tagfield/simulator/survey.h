@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A robot makes a map of a world that it does not know.
+/// A robot that maps an unknown world.
 #pragma once
 
 #include <atomic>
@@ -19,21 +19,20 @@ namespace tagfield {
 
 struct Survey {
   OccupancyGrid map;
-  std::optional<HitGrid> walls;  ///< Where in the map's cells they are.
-  /// Of x, y, yaw of the start on the map [m², m·rad, rad²], as mapping tells it.
+  std::optional<HitGrid> walls;  ///< Positions of walls within the map's cells.
+  /// Of x, y, yaw of the start on the map [m², m·rad, rad²], as estimated by mapping.
   Eigen::Matrix3d start_covariance = Eigen::Matrix3d::Zero();
-  PoseEstimate end;  ///< Where the robot believes to be in the end: near to its start.
+  PoseEstimate end;  ///< Believed pose of the robot at the end: near its start.
   PlanarPose true_end_W;
   std::vector<StampedPose> true_path;      ///< X_WR at 10 Hz,
-  std::vector<StampedPose> believed_path;  ///< and as the robot believed at the time.
+  std::vector<StampedPose> believed_path;  ///< and as believed by the robot at the time.
   double path_length_m = 0.0;
   double simulated_s = 0.0;
-  bool complete = true;               ///< False where it was stopped, or ended by its time limit.
-  std::vector<std::string> given_up;  ///< Places that it could not reach, and why.
+  bool complete = true;               ///< False if it was stopped, or ended by its time limit.
+  std::vector<std::string> given_up;  ///< Goals that it could not reach, and why.
 };
 
-/// Drives to frontiers until none is left that can be reached, and then back to the start, from
-/// robot.start on.
+/// Drives from robot.start to frontiers until no reachable one is left, and then back to the start.
 Survey survey(const NavigationSpec& navigation, const NavigationWorld& world,
               const RobotSpec& robot, double time_step_s, std::uint64_t seed, int threads,
               const std::atomic<bool>* stop,

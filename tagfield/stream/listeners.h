@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Who is told what a run yields, while it runs: reads, told poses, and apart from them the truth.
-/// In C++17, as the headers of ROS 1's messages are, which its adapters read, too.
+/// Interfaces for the output of a run while it runs: reads, reported poses and, separate from them,
+/// the ground truth. Limited to C++17, because the ROS 1 adapters include it together with the
+/// message headers of ROS 1, which are C++17.
 #pragma once
 
 #include <memory>
@@ -17,20 +18,20 @@
 
 namespace tagfield {
 
-/// An antenna, as outlets name it.
+/// An antenna, as known to outlets.
 struct AntennaInfo {
   std::string name;          ///< Unique over all readers.
-  std::string reader;        ///< Name of the reader that it belongs to.
-  std::string sensor;        ///< Name of the sensor that it is; "" where there is none.
-  std::string name_space;    ///< Of its topics; "" for none.
+  std::string reader;        ///< Name of its reader.
+  std::string sensor;        ///< Name of its sensor; "" if there is none.
+  std::string name_space;    ///< Namespace of its topics; "" for none.
   std::string frame_id;      ///< Frame A of the antenna.
-  std::string parent_frame;  ///< Frame P that its pose is told in; "" for the world.
-  double range_m = 0.0;      ///< Nominal, as for a picture.
-  bool is_fixed = false;     ///< It is at rest in the world.
-  bool tells_doppler = false;
+  std::string parent_frame;  ///< Frame P in which its pose is reported; "" for the world.
+  double range_m = 0.0;      ///< Nominal range, e.g. for drawing.
+  bool is_fixed = false;     ///< It doesn't move in the world.
+  bool reports_doppler = false;
 };
 
-/// Reads of one antenna at one time. Names are valid for the call.
+/// Reads of one antenna at one time. Names are valid only during the call.
 struct ReadBatch {
   struct Row {
     const std::string* tag = nullptr;  ///< Its ID; never null.
@@ -45,7 +46,7 @@ struct ReadBatch {
   const std::vector<Row>& rows;
 };
 
-/// The distances behind a ReadBatch, in its order.
+/// The distances of the reads in a ReadBatch, in the same order.
 struct DistanceBatch {
   struct Row {
     const std::string* tag = nullptr;  ///< Its ID; never null.
@@ -56,7 +57,7 @@ struct DistanceBatch {
   const std::vector<Row>& rows;
 };
 
-/// Gets reads. All calls come from one thread at a time.
+/// Receives reads. All calls come from one thread at a time.
 class ReadListener {
  public:
   ReadListener() = default;
@@ -64,9 +65,9 @@ class ReadListener {
   ReadListener(const ReadListener&) = delete;
   ReadListener& operator=(const ReadListener&) = delete;
 
-  /// One read. Over all antennas, stamps never fall until on_restart().
+  /// One read. Over all antennas, stamps never decrease until on_restart().
   virtual void on_read(const TagRead& read) = 0;
-  /// Many at once, for those who can take them faster than one by one.
+  /// Many reads in one call, for listeners that process batches faster than single reads.
   virtual void on_reads(const ReadBatch& batch) {
     TagRead read{batch.stamp, batch.reader, batch.antenna, {}};
     for (const ReadBatch::Row& row : batch.rows) {
@@ -78,15 +79,16 @@ class ReadListener {
       on_read(read);
     }
   }
-  /// The antenna's update at `stamp`, after its reads but for those that earlier ones may precede.
+  /// The antenna's update at `stamp`, after its reads except those that reads of other antennas may
+  /// still precede.
   virtual void on_update(const AntennaInfo& /*antenna*/, Time /*stamp*/) {}
   virtual void on_antenna_added(const AntennaInfo& /*antenna*/) {}
   virtual void on_antenna_removed(const std::string& /*name*/) {}
-  /// Time goes back: what comes is another run's.
+  /// Time jumps back: all that follows belongs to another run.
   virtual void on_restart() {}
 };
 
-/// Gets the antennas' poses as they are told: by their mount, or as a robot believes.
+/// Receives the antennas' poses as reported: from their mount, or from a robot's pose estimate.
 class PoseListener {
  public:
   PoseListener() = default;
@@ -94,11 +96,11 @@ class PoseListener {
   PoseListener(const PoseListener&) = delete;
   PoseListener& operator=(const PoseListener&) = delete;
 
-  /// At an update, before its ReadListener::on_update(): X_PA in antenna.parent_frame.
+  /// Called at an update, before its ReadListener::on_update(): X_PA in antenna.parent_frame.
   virtual void on_pose(const AntennaInfo& antenna, const AntennaPose& pose) = 0;
 };
 
-/// Gets what really was: to judge by, or to draw.
+/// Receives the ground truth, for evaluation or drawing.
 class TruthListener {
  public:
   TruthListener() = default;
@@ -106,18 +108,19 @@ class TruthListener {
   TruthListener(const TruthListener&) = delete;
   TruthListener& operator=(const TruthListener&) = delete;
 
-  /// `label` is what the driver's world calls the tag; "" where it does not.
+  /// `label` is the tag's name in the driver's world; "" if it has none.
   virtual void on_tag_added(const TagPosition& /*tag*/, const std::string& /*label*/) {}
   virtual void on_tag_moved(const TagPosition& /*tag*/) {}
   virtual void on_tag_removed(const std::string& /*id*/) {}
-  /// All that came, went or moved up to `stamp` has been told.
+  /// All tags that appeared, disappeared or moved up to `stamp` have been reported.
   virtual void on_tags_placed(Time /*stamp*/) {}
   virtual void on_robot_pose(const AntennaPose& /*robot*/) {}
-  /// At an update, before its ReadListener::on_update().
+  /// Called at an update, before its ReadListener::on_update().
   virtual void on_antenna_pose(const AntennaInfo& /*antenna*/, const AntennaPose& /*pose*/) {}
-  /// Of each read, before it; of reads that come at once, of all before the first.
+  /// The distance of a read, before the read; for a batch of reads, all distances come before the
+  /// first read.
   virtual void on_distance(const TrueDistance& /*distance*/) {}
-  /// Many at once, before their ReadListener::on_reads().
+  /// Many distances in one call, before the corresponding ReadListener::on_reads().
   virtual void on_distances(const DistanceBatch& batch) {
     TrueDistance distance{batch.stamp, batch.antenna, {}};
     for (const DistanceBatch::Row& row : batch.rows) {
@@ -128,14 +131,14 @@ class TruthListener {
   }
 };
 
-/// Who is told, each in the order of attachment.
+/// All listeners, each kind notified in order of attachment.
 struct Outlets {
   std::vector<std::shared_ptr<PoseListener>> poses;
   std::vector<std::shared_ptr<TruthListener>> truth;
   std::vector<std::shared_ptr<ReadListener>> reads;
 };
 
-/// Adds an outlet as each kind of listener that it is.
+/// Adds an outlet as every kind of listener that it implements.
 template <class Outlet>
 void attach(const std::shared_ptr<Outlet>& outlet, Outlets& outlets) {
   if constexpr (std::is_base_of_v<PoseListener, Outlet>) outlets.poses.push_back(outlet);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// All of a run, kept in memory.
+/// The whole output of a run, kept in memory.
 #pragma once
 
 #include <set>
@@ -11,14 +11,14 @@
 
 namespace tagfield {
 
-/// What a run yields, in order of time.
+/// The output of a run, in chronological order.
 struct Recording {
   std::vector<TagRead> reads;
   std::vector<AntennaPose> believed_poses;  ///< A fixed antenna has one row.
   Truth truth;
 };
 
-/// Tells which poses are worth a row: of a fixed antenna the first one alone.
+/// Decides which poses are recorded: for a fixed antenna, only the first.
 class FirstPoses {
  public:
   bool is_new(const AntennaInfo& antenna) {
@@ -30,13 +30,13 @@ class FirstPoses {
   std::set<std::string> seen_;
 };
 
-/// Appends all that it is told to a recording, which must outlive it.
+/// Appends everything it receives to a recording, which must outlive it.
 class Recorder final : public ReadListener, public PoseListener, public TruthListener {
  public:
   explicit Recorder(Recording& recording) : recording_(recording) {}
 
   void on_read(const TagRead& read) override { recording_.reads.push_back(read); }
-  // Rows are made in their place: to copy their names twice takes longer than all else.
+  // Rows are constructed in place: copying their names twice would take longer than all else.
   void on_reads(const ReadBatch& batch) override {
     for (const ReadBatch::Row& row : batch.rows) recording_.reads.emplace_back(ReadOf{batch, row});
   }
@@ -69,8 +69,8 @@ class Recorder final : public ReadListener, public PoseListener, public TruthLis
   }
 
  private:
-  /// What becomes a read where that is to be: emplace_back() takes no members of a plain struct
-  /// with all compilers.
+  /// Converts to a read in place: emplace_back() doesn't accept the members of a plain struct with
+  /// all compilers.
   struct ReadOf {
     const ReadBatch& batch;
     const ReadBatch::Row& row;
@@ -92,7 +92,7 @@ class Recorder final : public ReadListener, public PoseListener, public TruthLis
   FirstPoses placed_;
 };
 
-/// What keeps all of a run in `recording`, which must outlive it.
+/// Outlets that keep the whole run in `recording`, which must outlive them.
 inline Outlets recorded_in(Recording& recording) {
   Outlets outlets;
   attach(std::make_shared<Recorder>(recording), outlets);

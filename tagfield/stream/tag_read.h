@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a reader reports: the one record that a simulated and a real reader both hand over.
+/// What a reader reports: the one record type delivered by both simulated and real readers.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ struct TagRead {
   double frequency_hz = 0.0;  ///< Carrier.
   double phase_rad = 0.0;     ///< In [0, 2π), growing with distance (eq. 3 of the paper).
   double rssi_dbm = 0.0;
-  std::optional<double> doppler_hz{};  ///< Where the reader tells it; positive when coming nearer.
+  std::optional<double> doppler_hz{};  ///< If the reader reports it; positive when approaching.
 };
 
 }  // namespace tagfield

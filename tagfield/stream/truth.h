@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What really was, as the simulator knows it: apart from the reads: to judge estimates by, never
-/// to make them.
+/// Ground truth as known to the simulator, separate from the reads: for evaluating estimates, never
+/// for computing them.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,14 +13,14 @@
 
 namespace tagfield {
 
-/// Where a tag was from a time on.
+/// The position of a tag from `stamp` on.
 struct TagPosition {
   Time stamp;
   std::string tag;
   Eigen::Vector3d p_WT;  ///< [m]
 };
 
-/// The distance behind one read.
+/// The true distance of one read.
 struct TrueDistance {
   Time stamp;
   std::string antenna;
@@ -32,7 +32,7 @@ struct Truth {
   std::vector<AntennaPose> antenna_poses;  ///< A fixed antenna has one row.
   std::vector<AntennaPose> robot_poses;    ///< `antenna` holds the robot's name.
   std::vector<TagPosition> tag_positions;  ///< A tag at rest has one row, at its appearance.
-  std::vector<TrueDistance> distances;     ///< A row a read, in the order of the reads.
+  std::vector<TrueDistance> distances;     ///< One row per read, in the order of the reads.
 };
 
 }  // namespace tagfield

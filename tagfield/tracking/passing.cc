@@ -8,12 +8,13 @@
 namespace tagfield {
 namespace {
 
-/// Between two points of a track, as a part of the time from the first to the second.
+/// Timestamp between two points of a track, at a fraction of the interval.
 Time stamp_between(const TrackPoint& a, const TrackPoint& b, double part) {
   return a.stamp + duration_from_seconds(part * to_seconds(b.stamp - a.stamp));
 }
 
-/// First place between two points where `height`(point) changes its sign, if it does.
+/// First sign change of `height`(point), if any: index of the point after it, and fraction of the
+/// interval.
 template <typename Height>
 std::optional<std::pair<std::size_t, double>> first_zero(const Track& track, const Height& height) {
   for (std::size_t i = 1; i < track.points.size(); ++i) {

@@ -19,15 +19,15 @@ namespace {
 
 constexpr std::size_t kFewestReads = 12;
 constexpr std::size_t kMostHypotheses = 6;
-/// Hypotheses whose likelihood is less by more than this are not looked at any further.
+/// Hypotheses with a log-likelihood lower by more than this are dropped.
 constexpr double kHopeless = 60.0;
-/// Tracks this much less likely than the best can't be told from it.
+/// Tracks within this log-likelihood of the best cannot be distinguished from it.
 constexpr double kUntold = 8.0;
-/// A tag that went less than this part of what the least speed asks for was at rest.
+/// A tag that moved less than this fraction of the distance at minimum speed was at rest.
 constexpr double kAtRest = 0.8;
-constexpr double kOffLane = 5.0;    ///< A track more sigmas beside the lane is none of its tags.
-constexpr double kAsStill = 0.05;   ///< Rest explains the phases as well, within this coherence.
-constexpr double kSamePlace = 0.1;  ///< Tracks within this of each other are one [m].
+constexpr double kOffLane = 5.0;   ///< Maximum lateral deviation from the lane [sigmas].
+constexpr double kAsStill = 0.05;  ///< Coherence margin within which rest explains them as well.
+constexpr double kSamePosition = 0.1;  ///< Tracks within this of each other are the same [m].
 
 TagTrack not_tracked(TagTrack track, const std::string& why) {
   track.verdict = TrackVerdict::kNotTracked;
@@ -38,8 +38,7 @@ TagTrack not_tracked(TagTrack track, const std::string& why) {
 
 Track smoothed(const Pass& pass, const TrackingOptions& options, const LineHypothesis& hypothesis) {
   if (options.method == TrackMethod::kParticle) {
-    // Spread over all that noise may do in the whole pass, too few particles would be where it
-    // matters.
+    // With the process noise of the whole pass, too few particles would be where they matter.
     SmootherStart start = start_from(pass, options, hypothesis, 4.0);
     start.covariance += process_noise(options, 0.25 * duration_of(pass)) -
                         process_noise(options, duration_of(pass));
@@ -70,7 +69,7 @@ bool is_finite(const Track& track) {
   });
 }
 
-/// Those that the data can't tell from the best, best first.
+/// Tracks that the data cannot distinguish from the best, best first.
 std::vector<Track> rivals(std::vector<Track> tracks) {
   std::stable_sort(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) {
     return a.log_likelihood > b.log_likelihood;
@@ -79,14 +78,14 @@ std::vector<Track> rivals(std::vector<Track> tracks) {
   for (Track& track : tracks) {
     if (!kept.empty() && track.log_likelihood < kept.front().log_likelihood - kUntold) break;
     const bool known = std::any_of(kept.begin(), kept.end(), [&](const Track& other) {
-      return largest_distance(track, other) < kSamePlace;
+      return largest_distance(track, other) < kSamePosition;
     });
     if (!known) kept.push_back(std::move(track));
   }
   return kept;
 }
 
-/// How many sigmas a track is beside the lane, halfway; 0 without a lane.
+/// Lateral deviation of a track from the lane, halfway [sigmas]; 0 without a lane.
 double beside_lane(const TrackingOptions& options, const Track& track) {
   if (!options.lane || track.points.empty()) return 0.0;
   const Lane& lane = *options.lane;
@@ -95,7 +94,7 @@ double beside_lane(const TrackingOptions& options, const Track& track) {
   return std::abs(side.dot(middle.p_WT.head<2>() - lane.point)) / lane.lateral_sigma_m;
 }
 
-/// The lane weighs here too, as it tells mirror images apart: smoothing forgets it by and by.
+/// The lane is applied here too, as it distinguishes mirror images: smoothing gradually forgets it.
 std::vector<Track> tracks_of(const Pass& pass, const TrackingOptions& options) {
   const std::vector<LineHypothesis> hypotheses = search_lines(pass, options, kMostHypotheses);
   std::vector<Track> tracks;
@@ -109,8 +108,8 @@ std::vector<Track> tracks_of(const Pass& pass, const TrackingOptions& options) {
   return rivals(std::move(tracks));
 }
 
-/// Mean length of the sums of e^(jφ) by antenna and channel: near 1 where neither tag nor antennas
-/// moved, which at an even rate looks like motion by λ/2 from read to read.
+/// Mean magnitude of the sums of e^(jφ) by antenna and channel: near 1 if neither tag nor antennas
+/// moved, which at a constant read rate looks like motion by λ/2 from read to read.
 double stillness(const Pass& pass) {
   std::vector<std::complex<double>> sums(pass.groups);
   for (const PassRead& read : pass.reads) sums[read.group] += std::polar(1.0, read.phase_rad);

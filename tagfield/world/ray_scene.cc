@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 constexpr std::size_t kPacket = 16;
-/// How far beyond a triangle's rim a hit is still taken if Embree takes it; barycentric.
+/// How far outside a triangle's edges a hit of Embree's is still accepted; barycentric.
 constexpr double kRimTolerance = 0.01;
 
 WorldPlane world_plane(const Collision& collision, const Plane& plane, std::size_t index) {
@@ -50,10 +50,10 @@ void require_success(RTCDevice device) {
   throw Error(fmt::format("rays can't be made ready: Embree's error {}", static_cast<int>(error)));
 }
 
-/// Where a line meets a triangle's plane.
+/// The intersection of a line with a triangle's plane.
 struct PlanePoint {
-  double distance;  ///< Along the line from `origin` [m]; not finite for a line along the plane.
-  double inside;    ///< Least barycentric coordinate: negative beyond the triangle's rim.
+  double distance;  ///< Along the line from `origin` [m]; not finite if parallel to the plane.
+  double inside;    ///< Smallest barycentric coordinate: negative outside the triangle.
 };
 
 PlanePoint meet(const Triangles& triangles, std::size_t triangle, const Eigen::Vector3d& origin,
@@ -70,10 +70,11 @@ PlanePoint meet(const Triangles& triangles, std::size_t triangle, const Eigen::V
   return {distance, std::min({of_b, of_c, 1.0 - of_b - of_c})};
 }
 
-/// Embree asks this of each hit that it would take. Its single precision fails where a ray grazes a
-/// triangle: hits far from the triangle come up (issue 387 of Embree), and true ones are metres
-/// off. So each is made anew in double precision and taken unless it is clearly beyond the rim.
-/// Near the rim Embree's own verdict stands, since with it no ray slips through.
+/// Filter that Embree calls for each hit that it would accept. Its single precision fails where a
+/// ray grazes a triangle: hits far outside the triangle are reported (issue 387 of Embree), and
+/// true ones are metres off. So each hit is recomputed in double precision and accepted unless it
+/// is clearly outside the edges. Near the edges Embree's own decision stands, since with it no ray
+/// passes between triangles.
 void refine(const RTCFilterFunctionNArguments* hits) {
   const auto& triangles = *static_cast<const Triangles*>(hits->geometryUserPtr);
   const unsigned count = hits->N;
@@ -94,7 +95,7 @@ void refine(const RTCFilterFunctionNArguments* hits) {
   }
 }
 
-/// Copies the triangles as Embree takes them; `triangles` must outlive the scene.
+/// Copies the triangles into Embree's buffers; `triangles` must outlive the scene.
 void attach(RTCDevice device, RTCScene scene, Triangles& triangles) {
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   void* const vertices =
@@ -122,12 +123,12 @@ bool can_hit(const Ray& ray) {
   return ray.origin.allFinite() && ray.direction.allFinite() && ray.most_m >= 0.0F;
 }
 
-/// Distance along the ray to the plane, or `otherwise` where that is nearer.
+/// Distance along the ray to the plane, or `otherwise` if that is shorter.
 float nearer(const WorldPlane& plane, const Ray& ray, float otherwise) {
   const double slope = plane.normal.dot(ray.direction.cast<double>());
   const double height = plane.normal.dot(ray.origin.cast<double>()) - plane.offset;
   const double distance = -height / slope;
-  // False too for 0/0 and height/0: a ray along the plane doesn't meet it.
+  // Also false for 0/0 and height/0: a ray parallel to the plane doesn't hit it.
   return distance >= 0.0 && distance < static_cast<double>(otherwise) ? static_cast<float>(distance)
                                                                       : otherwise;
 }
@@ -163,8 +164,8 @@ RTCRayHit single(const Ray& ray) {
   return hit;
 }
 
-/// One for all scenes, which is never released: once the last device is, TBB starts threads of its
-/// own, and ends the program where the system gives it none.
+/// A single device for all scenes, never released: when the last device is released, TBB starts
+/// threads of its own, and terminates the program if the system can't start any.
 RTCDevice lasting_device() {
   static const RTCDevice device = rtcNewDevice("threads=1");
   return device;
@@ -180,7 +181,7 @@ RayScene::Impl::Impl() : device(lasting_device()) {
 RayScene::Impl::~Impl() { rtcReleaseScene(scene); }
 
 float RayScene::Impl::with_planes(const Ray& ray, float distance) const {
-  // Up to most_m, but an endless ray doesn't meet a plane at infinity.
+  // Up to most_m, but an infinite ray doesn't hit a plane at infinity.
   float nearest = distance == kNothing ? std::nextafter(ray.most_m, kNothing) : distance;
   const float limit = nearest;
   for (const WorldPlane& plane : planes) nearest = nearer(plane, ray, nearest);
@@ -216,7 +217,7 @@ RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
       add_solid(triangles, collision, i);
     }
   }
-  // Robust: a ray at an edge meets at least one of the triangles that share it.
+  // Robust: a ray through an edge hits at least one of the triangles that share it.
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
   if (!triangles.indices.empty()) attach(impl_->device, impl_->scene, triangles);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What is where: the solid shapes of a world, and the tags and antennas placed in it.
+/// The contents of a world: its solid shapes, and the tags and antennas placed in it.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,12 +34,12 @@ struct Cylinder {
 struct Sphere {
   double radius = 0.0;  ///< [m]
 };
-/// The half space below a plane through the origin; `size` is only how much of it to draw.
+/// The half space below a plane through the origin; `size` is only the extent to draw.
 struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   Eigen::Vector2d size = Eigen::Vector2d::Ones();  ///< [m]
 };
-using MeshPtr = std::shared_ptr<const TriangleMesh>;  ///< Shared by all that show the same file.
+using MeshPtr = std::shared_ptr<const TriangleMesh>;  ///< Shared by all uses of the same file.
 using Shape = std::variant<Box, Cylinder, Sphere, Plane, MeshPtr>;
 
 /// A solid part of the world.
@@ -47,24 +47,25 @@ struct Collision {
   std::string name;  ///< Scoped: "model::link::collision".
   Shape shape;       ///< In its frame C.
   RigidTransform X_WC;
-  /// How it looks: scoped names of its link's visuals, and the names of the materials they wear.
+  /// Its appearance: scoped names of its link's visuals, and the names of their materials.
   std::vector<std::string> looks{};
 };
 
 /// A tag or an antenna found in the world.
 struct Placement {
-  std::string name;  ///< Of the sensor; made unique by its model's name where several share it.
+  std::string name;  ///< The sensor's name, made unique with its model's name where several share
+                     ///< it.
   RigidTransform X_WS;
   std::vector<RawParameter> parameters;
   Location location;
 };
 
-/// A world at rest.
+/// A static world.
 struct Scene {
   std::string name;
   std::vector<std::string> models;  ///< Scoped names of all models, nested ones too.
   std::vector<Collision> collisions;
-  std::vector<std::string> materials;  ///< Names of the materials that the visuals wear.
+  std::vector<std::string> materials;  ///< Names of the materials of all visuals.
   std::vector<Placement> antennas;
   std::vector<Placement> tags;
 };

@@ -37,14 +37,14 @@ bool reaches_over(const Edge& edge, double low, double high) {
          std::max(edge.from.y(), edge.to.y()) >= high;
 }
 
-/// Twice the area, positive where the outline turns left.
+/// Twice the signed area, positive for a counterclockwise outline.
 double doubled_area(const std::vector<Edge>& edges) {
   double area = 0.0;
   for (const Edge& e : edges) area += e.from.x() * e.to.y() - e.from.y() * e.to.x();
   return area;
 }
 
-/// Whether `edges` enclose `p`: a ray along x from there crosses them an odd number of times.
+/// Whether `edges` enclose `p`: a ray from there along x crosses them an odd number of times.
 bool encloses(const std::vector<Edge>& edges, const Vector2d& p) {
   bool inside = false;
   for (const Edge& e : edges) {
@@ -86,7 +86,7 @@ class PrismMaker {
     }
   }
 
-  /// Trapezoids between the heights y of corners that follow one another.
+  /// Trapezoids between consecutive y coordinates of vertices.
   void add_floors() {
     std::vector<double> ys;
     std::vector<Edge> all;
@@ -114,7 +114,8 @@ class PrismMaker {
     }
   }
 
-  /// A triangle that turns left seen from above, on the top, and turned over on the bottom.
+  /// Adds a triangle, counterclockwise seen from above, at the top, and its mirror image at the
+  /// bottom.
   void add_floor(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
     if (a == b || b == c || c == a) return;
     add(at(a, height_), at(b, height_), at(c, height_));
@@ -141,7 +142,7 @@ TriangleMesh capsule_mesh(double radius, double length) {
   std::vector<Ring> rings;
   const double half = 0.5 * length;
   for (const Ring& ring : sphere_rings(radius)) {
-    // The ring in the middle is there twice, once at each end of the cylinder.
+    // The middle ring is used twice, once at each end of the cylinder.
     if (ring.z <= 1e-9 * radius) rings.push_back({ring.radius, ring.z - half});
     if (ring.z >= -1e-9 * radius) rings.push_back({ring.radius, ring.z + half});
   }

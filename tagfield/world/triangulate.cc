@@ -12,9 +12,8 @@ namespace {
 
 using Index = std::uint32_t;
 
-/// The least rotation that turns z to `normal`, half a turn about x where that is opposite to z.
-/// (Eigen's FromTwoVectors needs a singular value decomposition for that case, which takes long to
-/// compile.)
+/// The smallest rotation that turns z to `normal`; by π about x if that is opposite to z. (Eigen's
+/// FromTwoVectors needs a singular value decomposition for that case, which is slow to compile.)
 Eigen::Quaterniond from_z_to(const Eigen::Vector3d& normal) {
   const Eigen::Vector3d n = normal.normalized();
   if (n.z() < -1.0 + 1e-12) return {0.0, 1.0, 0.0, 0.0};
@@ -24,7 +23,7 @@ Eigen::Quaterniond from_z_to(const Eigen::Vector3d& normal) {
 struct Triangulate {
   TriangleMesh operator()(const Box& box) const {
     TriangleMesh mesh;
-    // Vertex i has its x, y, z on the far side where bit 0, 1, 2 of i is set.
+    // Bits 0, 1 and 2 of i select the positive side in x, y and z for vertex i.
     for (Index i = 0; i < 8; ++i) {
       const Eigen::Vector3d corner(i & 1U ? 0.5 : -0.5, i & 2U ? 0.5 : -0.5, i & 4U ? 0.5 : -0.5);
       mesh.vertices.emplace_back(corner.cwiseProduct(box.size));

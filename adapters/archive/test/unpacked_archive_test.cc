@@ -20,7 +20,7 @@ struct Packed {
   std::string name;
   std::string text;
   unsigned type = AE_IFREG;
-  std::string link;  ///< What a link points to.
+  std::string link;  ///< Target of a link.
 };
 
 std::string text_in(const fs::path& path) {
@@ -40,7 +40,8 @@ class Archives : public ::testing::Test {
   }
   ~Archives() override { fs::remove_all(folder_); }
 
-  /// An archive with these in it; of a name with ".csv." the text of the first alone.
+  /// An archive of these files; if the name contains ".csv.", the compressed text of the first
+  /// only.
   [[nodiscard]] std::string packed(const std::string& name,
                                    const std::vector<Packed>& files) const {
     std::string path = (folder_ / name).string();

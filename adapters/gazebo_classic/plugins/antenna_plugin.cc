@@ -24,7 +24,7 @@ void RfidAntennaPlugin::Load(sensors::SensorPtr sensor, sdf::ElementPtr plugin) 
   } catch (const std::exception& error) {
     gzerr << tagfield::place_of(*sensor) << ": " << error.what() << "; stays off\n";
   }
-  // Updates come from the world's steps, so Gazebo need not look after the sensor.
+  // Updates are triggered by the world's steps, so Gazebo need not update the sensor.
   sensor->SetActive(false);
 }
 

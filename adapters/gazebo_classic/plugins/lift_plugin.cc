@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// libTagfieldLiftPlugin.so: drives a prismatic joint up and down, or to a height it is told.
+// libTagfieldLiftPlugin.so: drives a prismatic joint up and down, or to a commanded height.
 // Parameters: tagfield/motion/robot_parameters.h.
 #include <atomic>
 #include <gazebo/common/Console.hh>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* kFile = "libTagfieldLiftPlugin.so";
 
-/// What begins anew with each start of the world.
+/// State that is reset with each start of the world.
 struct Run {
   LiftGuide guide;
   Time start;
@@ -43,7 +43,7 @@ class LiftOfModel {
     expect_ode(*world_);
   }
 
-  /// To be called at the beginning of each step of the world, whose time is that of its end.
+  /// To be called at the beginning of each step of the world; `end` is the time of its end.
   void begin_step(Time end) {
     const double seconds = world_->Physics()->GetMaxStepSize();
     if (restart_.exchange(false) || !run_ || end < run_->last) {
@@ -55,7 +55,7 @@ class LiftOfModel {
     drive_.go(parameters_.lower_m + height, seconds);
   }
 
-  /// To be called at its end.
+  /// To be called at the end of the step.
   void end_step() {
     if (!run_) return;
     const Time now = from_gazebo(world_->SimTime());
@@ -90,7 +90,7 @@ class LiftOfModel {
 
 }  // namespace
 
-/// Gazebo's end of a lift. Where a parameter is wrong it says so and does nothing.
+/// Plugin for a lift. If a parameter is invalid, it reports that and does nothing.
 class LiftPlugin final : public gazebo::ModelPlugin {
  public:
   void Load(gazebo::physics::ModelPtr model, sdf::ElementPtr element) override {

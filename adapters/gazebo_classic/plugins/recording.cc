@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kRecordingFile = "TagfieldRecordingPlugin";
 
-/// Nothing that comes of a recording may end the simulation.
+/// Reports errors: a failing recording must not end the simulation.
 template <class Task>
 void told_if_it_fails(const Task& task) {
   try {
@@ -65,7 +65,7 @@ Sinks files_of(gazebo::physics::World& world) {
   return files;
 }
 
-/// Of one world, as long as anybody holds it; tried once.
+/// The recording of one world, while there are references to it; opened only once.
 struct Known {
   bool is_tried = false;
   std::weak_ptr<ros2::MessageSink> recording;
@@ -74,7 +74,7 @@ struct Known {
 }  // namespace
 
 std::shared_ptr<ros2::MessageSink> shared_recording(const gazebo::physics::WorldPtr& world) {
-  // As with shared_rfid_world(), plugins have no other place to meet.
+  // As with shared_rfid_world(), plugins have no other way to share state.
   static std::mutex mutex;
   static std::map<std::string, Known> worlds;
   const std::lock_guard lock(mutex);

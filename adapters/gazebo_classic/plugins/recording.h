@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Recordings of a Gazebo world into MCAP files of ROS 2.
+/// Recordings of a Gazebo world as ROS 2 MCAP files.
 #pragma once
 
 #include <gazebo/physics/PhysicsTypes.hh>
@@ -10,9 +10,9 @@
 
 namespace tagfield {
 
-/// Where messages go that the world's recording plugins ask for in its SDF, whichever plugin is
-/// loaded first; null where none does. May be used from several threads. The files are finished
-/// once nobody holds it any more. What can't be written is an error of Gazebo's.
+/// The sink of the recordings that the world's recording plugins request in its SDF, whichever
+/// plugin is loaded first; null if there are none. Thread-safe. The files are finished when the
+/// last reference is released. Write failures are reported as Gazebo errors.
 std::shared_ptr<ros2::MessageSink> shared_recording(const gazebo::physics::WorldPtr& world);
 
 }  // namespace tagfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// libTagfieldRobotPlugin.so: drives a skid-steered robot by cmd_vel or along waypoints, and tells
-// its odometry, laser and frames. Parameters: tagfield/motion/robot_parameters.h.
+// libTagfieldRobotPlugin.so: drives a skid-steered robot by cmd_vel or along waypoints, and
+// publishes its odometry, laser and frames. Parameters: tagfield/motion/robot_parameters.h.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -49,13 +49,13 @@ void expect_ray_sensor(gazebo::physics::Link& link, const std::string& name) {
                           link.GetName()));
 }
 
-/// What begins anew with each start of the world.
+/// State that is reset with each start of the world.
 struct Run {
   RobotDriver driver;
   WheelOdometry odometry;
-  RigidTransform X_WO;  ///< Where the robot stood, on the floor.
+  RigidTransform X_WO;  ///< The robot's initial pose on the floor.
   Time last;
-  Time reported;  ///< Odometry.
+  Time reported;  ///< Time of the last odometry message.
   BodyVelocity reported_travel;
   bool finished = false;
 };
@@ -144,7 +144,7 @@ class Robot {
   void read_laser(Time now) {
     if (parameters_.laser.empty()) return;
     if (!laser_) {
-      // Sensors come to be on a thread of their own, a moment after their models.
+      // Sensors are created on a separate thread, slightly later than their models.
       const auto sensor = find_ray_sensor(base_->GetScopedName(true), parameters_.laser);
       if (!sensor) return;
       laser_.emplace(sensor);
@@ -171,8 +171,8 @@ class Robot {
                       eigen(base_->RelativeAngularVel())});
   }
 
-  /// Of the mean over `seconds`, as the wheels' noise makes it; with a little for a robot that
-  /// stands, because nobody can use a variance of 0.
+  /// Variance of the mean over `seconds` due to the wheels' noise; at least a small value for a
+  /// robot at rest, as a variance of 0 is unusable.
   [[nodiscard]] Eigen::Vector2d velocity_variance(const BodyVelocity& velocity,
                                                   double seconds) const {
     constexpr double kLeast = 1e-8;
@@ -216,7 +216,7 @@ class Robot {
 
 }  // namespace
 
-/// Gazebo's end of a Robot. Where a parameter is wrong it says so and does nothing.
+/// Plugin for a Robot. If a parameter is invalid, it reports that and does nothing.
 class RobotPlugin final : public gazebo::ModelPlugin {
  public:
   void Load(gazebo::physics::ModelPtr model, sdf::ElementPtr element) override {

@@ -21,7 +21,7 @@
 namespace tagfield {
 namespace {
 
-/// For benchmarks: what an update took, when the world's last plugin goes.
+/// For benchmarks: reports the cost of an update when the world's last plugin is unloaded.
 void report_cost(const RfidWorld& world) {
   if (std::getenv("TAGFIELD_REPORT_COST") == nullptr) return;
   const FieldCost cost = world.cost();
@@ -53,8 +53,8 @@ std::shared_ptr<RfidWorld> make_world(const gazebo::physics::WorldPtr& world) {
 }  // namespace
 
 std::shared_ptr<RfidWorld> shared_rfid_world(const gazebo::physics::WorldPtr& world) {
-  // Gazebo gives sensor plugins no place to meet, so they meet here, by their world's name. Nothing
-  // is kept beyond its users.
+  // Gazebo offers sensor plugins no shared state, so they share it here, by their world's name.
+  // Nothing is kept longer than its users.
   static std::mutex mutex;
   static std::map<std::string, std::weak_ptr<RfidWorld>> worlds;
   const std::lock_guard lock(mutex);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The RFID world that all plugins of a Gazebo world share, with ROS, the window and recordings as
+/// The RFID world shared by all plugins of a Gazebo world, with ROS, the window and recordings as
 /// listeners.
 #pragma once
 
@@ -11,9 +11,9 @@
 
 namespace tagfield {
 
-/// Made for the first plugin that asks, gone with the last that holds it. Then, if the environment
-/// has TAGFIELD_REPORT_COST, it prints its FieldCost as a line of JSON on standard output: means in
-/// milliseconds an antenna update.
+/// Created for the first plugin that requests it, destroyed with the last that holds it. If the
+/// environment variable TAGFIELD_REPORT_COST is set, its FieldCost is then printed on standard
+/// output as a line of JSON: means in milliseconds per antenna update.
 std::shared_ptr<RfidWorld> shared_rfid_world(const gazebo::physics::WorldPtr& world);
 
 }  // namespace tagfield

@@ -24,7 +24,7 @@ void RfidTagPlugin::Load(sensors::SensorPtr sensor, sdf::ElementPtr plugin) {
   } catch (const std::exception& error) {
     gzerr << tagfield::place_of(*sensor) << ": " << error.what() << "; left out\n";
   }
-  // A tag has nothing to update by itself.
+  // A tag needs no updates.
   sensor->SetActive(false);
 }
 

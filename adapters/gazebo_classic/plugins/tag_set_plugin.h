@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// libTagfieldTagSetPlugin.so: many tags on one model, which cost Gazebo no more than one.
+/// libTagfieldTagSetPlugin.so: many tags on one model, at no more cost to Gazebo than one.
 ///
 ///     <plugin name="tags" filename="libTagfieldTagSetPlugin.so">
 ///       <link>shelf</link>                         <!-- default: the model's canonical link -->
@@ -10,8 +10,8 @@
 ///       <sensitivity_dbm>-18</sensitivity_dbm>     <!-- their kind, as in tag_plugin.h -->
 ///     </plugin>
 ///
-/// EPCs are unique in the world. One row that is wrong leaves the whole set out, with one error
-/// that names model, plugin and row.
+/// EPCs are unique in the world. A single invalid row disables the whole set, with one error that
+/// names model, plugin and row.
 #pragma once
 
 #include <gazebo/common/Plugin.hh>

@@ -20,7 +20,7 @@ constexpr const char* kTagPlugin = "libgazeboRfidTagPlugin.so";
 constexpr const char* kTagSetPlugin = "libTagfieldTagSetPlugin.so";
 constexpr const char* kLiftPlugin = "libTagfieldLiftPlugin.so";
 
-/// A box to see; nothing runs into it.
+/// A visible box without collisions.
 void add_visual(XMLElement* link, const std::string& name, const RigidTransform& X_LB,
                 const char* size, const char* color) {
   XMLElement* const visual = add_named(link, "visual", name + "_visual");
@@ -31,7 +31,7 @@ void add_visual(XMLElement* link, const std::string& name, const RigidTransform&
   add(material, "diffuse", std::string(color));
 }
 
-/// Mass and moments of inertia of a box-like body of some 20 cm, in the middle of the link.
+/// Mass and moments of inertia of a box-like body of some 20 cm, at the centre of the link.
 void add_inertial(XMLElement* link, double mass_kg) {
   XMLElement* const inertial = add(link, "inertial");
   add(inertial, "mass", mass_kg);
@@ -42,7 +42,8 @@ void add_inertial(XMLElement* link, double mass_kg) {
   for (const char* axis : {"ixy", "ixz", "iyz"}) add(inertia, axis, 0.0);
 }
 
-/// Without what only a profile said and nothing uses, of which plugins would warn.
+/// The settings without those that stem only from a profile and are unused, of which plugins would
+/// warn.
 template <class Model>
 std::vector<RawParameter> used_settings(const Model& model) {
   std::vector<RawParameter> used;
@@ -76,7 +77,7 @@ void add_model(XMLElement* plugin, const PaperAntenna& antenna) {
   add_distribution(plugin, antenna.model.optional);
 }
 
-/// A carrier and an offset among the settings go before the published elements.
+/// A carrier or an offset in the settings replaces the published elements.
 void add_model(XMLElement* plugin, const std::shared_ptr<const RadioModel>& radio) {
   add(plugin, "frequency", PaperModel{}.frequency_hz);
   add(plugin, "phase_offset", PaperModel{}.phase_offset_rad);
@@ -111,7 +112,7 @@ void add_lift_plugin(XMLElement* model, const std::string& joint, const Lift& li
   add(plugin, "upper", lift.travel_m);
 }
 
-/// A link at X_MA that a vertical joint carries.
+/// A link at X_MA on a vertical prismatic joint.
 XMLElement* add_lift(const AntennaSpec& antenna, const std::string& name, const Carrier& carrier) {
   constexpr double kCarriageMass = 0.5;
   XMLElement* const link = add_named(carrier.model, "link", name);
@@ -122,7 +123,7 @@ XMLElement* add_lift(const AntennaSpec& antenna, const std::string& name, const 
   add(joint, "parent", std::string(carrier.link->Attribute("name")));
   add(joint, "child", name);
   XMLElement* const axis = add(joint, "axis");
-  // In the link's frame: where the antenna is tilted, up is not its z.
+  // In the link's frame: for a tilted antenna, up is not its z axis.
   const Eigen::Vector3d up = antenna.X_PA.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   add(axis, "xyz", fmt::format("{} {} {}", up.x(), up.y(), up.z()));
   XMLElement* const limit = add(axis, "limit");
@@ -132,7 +133,7 @@ XMLElement* add_lift(const AntennaSpec& antenna, const std::string& name, const 
   return link;
 }
 
-/// A model with one link, both at the pose of what is to be on it.
+/// A model with one link, both at the pose of the object to be mounted on it.
 Carrier add_static_model(Builder& builder, XMLElement* world, const std::string& name,
                          const RigidTransform& X_WM) {
   Carrier carrier;
@@ -143,7 +144,7 @@ Carrier add_static_model(Builder& builder, XMLElement* world, const std::string&
   return carrier;
 }
 
-/// A static model's joints don't move: a base that a joint holds in the world.
+/// A model whose base is held in the world by a joint, as the joints of a static model don't move.
 Carrier add_held_model(Builder& builder, XMLElement* world, const std::string& name) {
   constexpr double kBaseMass = 10.0;
   Carrier carrier;
@@ -176,7 +177,8 @@ void add_tag_row(XMLElement* plugin, const TagSpec& tag) {
   row->SetAttribute("epc", tag.id.c_str());
 }
 
-/// The plugin of the tags of one kind, which is called after the number of those before it.
+/// The plugin for the tags of one kind; its name depends on `number`, the number of such plugins
+/// before it.
 XMLElement* add_tag_set(XMLElement* model, const TagModel* kind, std::size_t number) {
   XMLElement* const plugin = add_plugin(model, kTagSetPlugin);
   if (number > 0) plugin->SetAttribute("name", fmt::format("tags_{}", number + 1).c_str());
@@ -184,7 +186,7 @@ XMLElement* add_tag_set(XMLElement* model, const TagModel* kind, std::size_t num
   return plugin;
 }
 
-/// One model with a set for each run of tags of one kind, so that their order stays.
+/// One model with a set for each sequence of tags of one kind, so that their order is kept.
 void add_tag_sets(Builder& builder, const std::vector<const TagSpec*>& tags, XMLElement* world) {
   const Carrier carrier = add_static_model(builder, world, "tags", {});
   XMLElement* plugin = nullptr;

@@ -33,7 +33,7 @@ void add_material(XMLElement* plugin, const Material& material) {
   add(element, "opaque", std::string(material.is_opaque ? "true" : "false"));
 }
 
-/// Those that stand before the known ones.
+/// Adds the materials that precede the known ones.
 void add_own_materials(XMLElement* plugin, const std::vector<Material>& materials) {
   const std::size_t known = std::min(known_materials().size(), materials.size());
   for (std::size_t i = 0; i < materials.size() - known; ++i) {
@@ -46,7 +46,7 @@ void add_own_materials(XMLElement* plugin, const std::vector<Material>& material
 
 void add_settings(XMLElement* plugin, const std::vector<RawParameter>& settings) {
   for (const RawParameter& setting : settings) {
-    if (setting.value.empty()) continue;  // A list of nothing, which SDF has no word for.
+    if (setting.value.empty()) continue;  // An empty list, which SDF can't express.
     require_xml_text(setting.value, setting.key.c_str(), setting.location);
     add(plugin, setting.key.c_str(), setting.value);
   }

@@ -11,11 +11,11 @@
 
 namespace tagfield::gazebo_world_internal {
 
-/// An element a setting, in their order. Throws Error if XML can't hold one.
+/// Adds an element per setting, in their order. Throws Error if XML can't represent one.
 void add_settings(XMLElement* plugin, const std::vector<RawParameter>& settings);
 
-/// The plugin that says what the world is made of, in place of one that stands there, where an
-/// antenna has a physical model.
+/// Adds the plugin that describes the world's materials, replacing an existing one, if an antenna
+/// has a physical model.
 void add_materials(const Scenario& scenario, XMLElement* world);
 
 }  // namespace tagfield::gazebo_world_internal

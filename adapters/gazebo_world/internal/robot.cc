@@ -38,7 +38,7 @@ XMLElement* require(XMLElement* found, const std::string& model_file, const std:
   return found;
 }
 
-/// A robot that finds its way by itself gets no way: nodes drive it by cmd_vel.
+/// Sets the robot's path; an autonomous one gets none, as nodes drive it by cmd_vel.
 void set_way(XMLElement* plugin, const RobotSpec& robot, bool finds_way) {
   set(plugin, "speed", fmt::format("{}", robot.style.speed_m_s));
   set(plugin, "look_ahead", fmt::format("{}", robot.style.look_ahead_m));
@@ -51,7 +51,7 @@ void set_way(XMLElement* plugin, const RobotSpec& robot, bool finds_way) {
   }
 }
 
-/// Several robots have topics and frames of their own: those of `name`.
+/// Gives one of several robots separate topics and frames, named after `name`.
 void tell_apart(XMLElement* model, XMLElement* plugin, XMLElement* base, const std::string& name) {
   const std::string link = fmt::format("{}_{}", name, kBaseLink);
   base->SetAttribute("name", link.c_str());
@@ -96,7 +96,7 @@ void add_robot(Builder& builder, const RobotSpec& robot, const std::string& mode
                          fmt::format("link '{}'", kBaseLink));
   const bool finds_way = builder.scenario.pose.source == PoseSource::kSlam;
   set_way(plugin, robot, finds_way);
-  // Otherwise whatever localizes tells where odom is, on the map.
+  // Otherwise the robot's localization publishes odom on the map.
   if (!finds_way) set(plugin, "odom_parent_frame", "world");
   if (builder.scenario.robots.size() > 1) {
     tell_apart(model, plugin, carrier.link, model->Attribute("name"));

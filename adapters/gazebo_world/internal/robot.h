@@ -7,8 +7,9 @@
 
 namespace tagfield::gazebo_world_internal {
 
-/// Adds a copy of the model in `model_file` as `robot`, with its way to drive and with the antennas
-/// and tags that are on it. Throws Error if the file can't be read or is no model of a robot.
+/// Adds a copy of the model in `model_file` as `robot`, with the parameters of its drive and with
+/// the antennas and tags mounted on it. Throws Error if the file can't be read or does not contain
+/// a robot model.
 void add_robot(Builder& builder, const RobotSpec& robot, const std::string& model_file,
                XMLElement* world);
 

@@ -66,7 +66,7 @@ void set(XMLElement* parent, const char* name, const std::string& text) {
 std::string pose_text(const RigidTransform& pose) {
   const Eigen::Vector3d& p = pose.translation;
   const Eigen::Vector3d rpy = rpy_of(pose.rotation);
-  // Adding 0 makes a zero of -0.
+  // Adding 0 turns -0 into 0.
   return fmt::format("{} {} {} {} {} {}", p.x() + 0.0, p.y() + 0.0, p.z() + 0.0, rpy.x() + 0.0,
                      rpy.y() + 0.0, rpy.z() + 0.0);
 }
@@ -99,7 +99,7 @@ std::string Names::make(const std::string& wanted) {
   for (char& c : plain) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   }
-  // SDF keeps names such as __model__ for itself.
+  // SDF reserves names such as __model__.
   if (plain.rfind("__", 0) == 0) plain = "x" + plain;
   std::string name = plain;
   for (int number = 2; !taken_.insert(name).second; ++number) {

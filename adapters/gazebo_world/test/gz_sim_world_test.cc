@@ -10,7 +10,7 @@ namespace {
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// What comes of the content of a world, and the warnings.
+/// The conversion of a world's content, and the warnings.
 class Converted {
  public:
   explicit Converted(const std::string& content, const GzSimOptions& options = {}) {

@@ -84,8 +84,7 @@ TEST(ScenarioWorld, LeavesOutWhatOnlyAProfileSaysAndNothingUses) {
 
 class ScenarioFiles : public testing::TestWithParam<const char*> {};
 
-/// What stood in the world stands there still, and all of the scenario's tags are where it has
-/// them.
+/// The contents of the world are unchanged, and all of the scenario's tags have the same positions.
 TEST_P(ScenarioFiles, AreTheSameInTheWorld) {
   const std::string path = fmt::format("{}/scenarios/{}", TAGFIELD_SOURCE_DIR, GetParam());
   Diagnostics diagnostics;
@@ -139,7 +138,7 @@ tags:
   - {id: turned, position: [1, 2, 1], rpy: [0, 0.5, 1], sensitivity_dbm: -20.5}
 )";
 
-/// A hall for kPhysical, with materials of its own that are not the scenario's.
+/// A hall for kPhysical, with materials that are not the scenario's.
 constexpr const char* kHall = R"(<sdf version="1.6"><world name="w">
   <plugin name="old" filename="libTagfieldMaterialsPlugin.so"/>
   <model name="hall"><static>1</static><link name="link"><collision name="c"><geometry>
@@ -150,7 +149,7 @@ std::string write_physical() {
   return write_scenario(kPhysical);
 }
 
-/// The models of a world's sensor are those of the scenario's.
+/// The radio models of a world's sensor are the scenario's.
 void expect_same(const RadioModel& read, const RadioModel& given) {
   EXPECT_EQ(read.plan.carriers_hz, given.plan.carriers_hz);
   EXPECT_EQ(read.transmit_power_dbm, given.transmit_power_dbm);

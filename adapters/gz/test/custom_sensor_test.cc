@@ -16,7 +16,7 @@
 namespace tagfield {
 namespace {
 
-/// The first sensor of a model with one link, which holds `sensor`.
+/// The first sensor of a model with one link that contains `sensor`.
 sdf::Sensor sensor_of(const std::string& sensor) {
   sdf::Root root;
   const std::string text =
@@ -26,7 +26,7 @@ sdf::Sensor sensor_of(const std::string& sensor) {
   return *root.Model()->LinkByIndex(0)->SensorByIndex(0);
 }
 
-/// The value of the last parameter of this key; "" where there is none.
+/// The value of the last parameter with this key; "" if there is none.
 std::string value_of(const std::string& key, const std::vector<RawParameter>& parameters) {
   const auto found =
       std::find_if(parameters.rbegin(), parameters.rend(),
@@ -89,7 +89,7 @@ TEST(TagSet, HasRowsThenTables) {
   ASSERT_EQ(tags.size(), 3U);
   EXPECT_EQ(tags[0].id, "A");
   EXPECT_EQ(tags[0].X_LT.translation, Eigen::Vector3d(1.0, 2.0, 3.0));
-  // A quarter turn about z takes x to y.
+  // A rotation by 90° about z maps x to y.
   EXPECT_TRUE(
       (tags[1].X_LT.rotation * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY(), 1e-12));
   EXPECT_EQ(tags[2].X_LT.translation, Eigen::Vector3d(7.0, 8.0, 9.0));

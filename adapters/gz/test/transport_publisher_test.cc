@@ -21,7 +21,7 @@
 namespace tagfield {
 namespace {
 
-/// What came in on a topic, in another node.
+/// Messages received on a topic by another node.
 template <class Message>
 class Heard {
  public:
@@ -34,7 +34,7 @@ class Heard {
     node_.Subscribe(topic, take);
   }
 
-  /// Waits for so many; gives what there is after some seconds.
+  /// Waits for `count` messages; returns those received, after ten seconds at the latest.
   std::vector<Message> wait_for(std::size_t count) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, std::chrono::seconds(10), [&] { return messages_.size() >= count; });
@@ -163,7 +163,7 @@ TEST(TransportPublisher, KeepsNameSpacesApart) {
   ASSERT_EQ(here.wait_for(1).size(), 1U);
 }
 
-/// `ign topic` and `gz topic` show no message whose descriptor they don't find.
+/// `ign topic` and `gz topic` can't show messages whose descriptor they don't find.
 TEST(TransportPublisher, SendsWhatTheCommandOfGazeboCanShow) {
   gz_msgs::Factory::LoadDescriptors(TAGFIELD_GZ_DESCRIPTORS);
   for (const std::string type : {"TagReads", "AntennaTruth", "TagPositions"}) {

@@ -15,7 +15,7 @@ namespace {
 
 namespace websocket = beast::websocket;
 
-/// Two seconds' worth: who is further behind loses the oldest.
+/// Two seconds' worth: a client that is further behind loses the oldest.
 constexpr std::size_t kMostFrames = 40;
 constexpr std::size_t kMostMessage = 4096;
 
@@ -51,7 +51,7 @@ class FrameSession final : public FrameClient, public std::enable_shared_from_th
   }
 
  private:
-  /// What a page says is not listened to; that it is still there is.
+  /// Messages from a page are ignored; they only show that it is still there.
   void read() {
     socket_.async_read(incoming_,
                        [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -61,7 +61,7 @@ class FrameSession final : public FrameClient, public std::enable_shared_from_th
                        });
   }
 
-  /// The next frame; none where nothing is left, and the next one has to wake it.
+  /// The next frame; none if the queue is empty, and the next frame has to restart writing.
   std::shared_ptr<const std::string> next() {
     const std::lock_guard<std::mutex> guard(lock_);
     if (dropped_ > 0) {
@@ -101,7 +101,7 @@ class FrameSession final : public FrameClient, public std::enable_shared_from_th
   std::shared_ptr<const std::string> outgoing_;
   bool has_ended_ = false;
 
-  std::mutex lock_;  ///< Of the following, which the simulating thread fills.
+  std::mutex lock_;  ///< Guards the following, which the simulation thread fills.
   std::deque<std::shared_ptr<const std::string>> frames_;
   std::int64_t dropped_ = 0;
   bool is_woken_ = false;

@@ -23,10 +23,10 @@ namespace http = beast::http;
 
 constexpr std::uint64_t kMostBody = 65'536;
 constexpr std::uint32_t kMostHeader = 16'384;
-/// To bring a request, and between two of them.
+/// Time limit for receiving a request, and between two of them.
 constexpr std::chrono::seconds kPatience(30);
 
-/// For a client to take the last answer and stop sending.
+/// Time for a client to receive the last response and stop sending.
 constexpr std::chrono::seconds kGoodbye(2);
 constexpr std::size_t kMostDrained = 1U << 20U;
 
@@ -101,7 +101,7 @@ void HttpSession::on_read(beast::error_code error) {
   }
 }
 
-/// Why the request is not for us; none where it is.
+/// Response that refuses the request; none if it is acceptable.
 std::optional<ApiResponse> HttpSession::refusal(const Request& request) const {
   const auto field = [&](http::field name) {
     const auto value = request[name];
@@ -222,8 +222,8 @@ void HttpSession::close() {
   drain();
 }
 
-/// A socket that is closed before all was read resets the connection, and the answer gets lost that
-/// says why nothing more is read.
+/// Closing a socket before everything was read resets the connection, and the response with the
+/// reason would be lost.
 void HttpSession::drain() {
   stream_.async_read_some(asio::buffer(drained_),
                           [self = shared_from_this()](beast::error_code error, std::size_t bytes) {

@@ -19,9 +19,9 @@ namespace {
 
 namespace http = beast::http;
 
-/// Of reads that wait for a client, by number: who is further behind loses the oldest.
+/// Reads queued for a client: one that is further behind loses the oldest.
 constexpr std::size_t kMostReads = 20'000;
-/// A client that takes nothing for so long is gone.
+/// A client that receives nothing for this long is considered gone.
 constexpr std::chrono::seconds kWritePatience(60);
 
 class ReadSession final : public ReadClient, public std::enable_shared_from_this<ReadSession> {
@@ -67,7 +67,7 @@ class ReadSession final : public ReadClient, public std::enable_shared_from_this
   }
 
  private:
-  /// Nothing more is expected: that it ends is noticed.
+  /// Detects the end of the connection; nothing more is expected.
   void watch() {
     stream_.expires_never();
     stream_.async_read_some(incoming_.prepare(512),
@@ -85,7 +85,7 @@ class ReadSession final : public ReadClient, public std::enable_shared_from_this
     return is("tag", read.tag) && is("antenna", read.antenna) && is("reader", read.reader);
   }
 
-  /// All that waits and is asked for.
+  /// All queued reads that match the request.
   std::string take() {
     std::deque<std::shared_ptr<const ReadLines>> batches;
     std::string text;
@@ -140,9 +140,9 @@ class ReadSession final : public ReadClient, public std::enable_shared_from_this
   std::string outgoing_;
   bool has_ended_ = false;
 
-  std::mutex lock_;  ///< Of the following, which the simulating thread fills.
+  std::mutex lock_;  ///< Guards the following, which the simulation thread fills.
   std::deque<std::shared_ptr<const ReadLines>> batches_;
-  std::size_t waiting_ = 0;  ///< Reads in them.
+  std::size_t waiting_ = 0;  ///< Number of reads in them.
   std::size_t dropped_ = 0;
   bool is_woken_ = false;
 };

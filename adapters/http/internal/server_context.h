@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What all connections of a server share.
+/// Shared by all connections of a server.
 #pragma once
 
 #include <atomic>
@@ -28,10 +28,10 @@ struct ServerContext {
   std::atomic<int> connections{0};
   std::atomic<bool> stop{false};
   asio::io_context io{1};
-  asio::thread_pool workers{1};  ///< For what would hold up others.
+  asio::thread_pool workers{1};  ///< For work that would block other requests.
 };
 
-/// Counts a connection as long as it lives.
+/// Counts a connection during its lifetime.
 class ConnectionCount {
  public:
   explicit ConnectionCount(ServerContext& context) : context_(&context) { ++context_->connections; }
@@ -43,14 +43,14 @@ class ConnectionCount {
   ServerContext* context_;
 };
 
-/// A connection that has been accepted: reads requests and answers them.
+/// Serves an accepted connection: reads requests and answers them.
 void serve_connection(ServerContext& context, asio::ip::tcp::socket socket);
 
-/// Goes on as a WebSocket that gets frames.
+/// Upgrades the connection to a WebSocket that receives frames.
 void serve_frames(ServerContext& context, beast::tcp_stream stream, Request request,
                   std::shared_ptr<ConnectionCount> count);
 
-/// Goes on as an answer without end: a line of JSON each read that `request` asks for.
+/// Turns the connection into an endless response: a line of JSON per read that matches `request`.
 void serve_reads(ServerContext& context, beast::tcp_stream stream, const Request& request,
                  std::shared_ptr<ConnectionCount> count);
 

@@ -68,7 +68,7 @@ TEST_F(ApiTest, EveryAddressIsDescribedAndEveryDescribedOneIsThere) {
     }
   }
   std::vector<std::string> served = Api::routes();
-  served.emplace_back("GET /api/reads");  // the server's own, as it does not end
+  served.emplace_back("GET /api/reads");  // handled by the server, as it is endless
   std::sort(said.begin(), said.end());
   std::sort(served.begin(), served.end());
   EXPECT_EQ(said, served);
@@ -135,7 +135,7 @@ TEST_F(ApiTest, CoverageAgreesWithTheLink) {
   const double cell = json["cell"];
   const auto columns = json["columns"].get<std::size_t>();
   ASSERT_EQ(json["margin_db"].size(), columns * json["rows"].get<std::size_t>());
-  // Straight ahead, in free space, twice as far is 6.02 dB less at the tag.
+  // On the boresight, in free space, twice the distance is 6.02 dB less at the tag.
   const auto at = [&](double x, double y) {
     const auto column = static_cast<std::size_t>((x - x0) / cell);
     const auto row = static_cast<std::size_t>((y - json["y0"].get<double>()) / cell);

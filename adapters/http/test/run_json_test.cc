@@ -8,7 +8,7 @@
 namespace tagfield::http {
 namespace {
 
-/// One antenna along x, a read of one tag at each pose.
+/// One antenna moving along x, with a read of one tag at each pose.
 RunFiles long_run(int poses) {
   std::vector<AntennaPose> way;
   std::vector<TagRead> reads;

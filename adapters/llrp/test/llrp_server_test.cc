@@ -28,7 +28,7 @@ Scenario one_reader() {
       .scenario;
 }
 
-/// Whether the other side ends the connection within ten seconds.
+/// Whether the peer closes the connection within ten seconds.
 bool is_ended(tcp::socket& socket) {
   using Clock = std::chrono::steady_clock;
   socket.non_blocking(true);
@@ -51,11 +51,11 @@ TEST(LlrpServer, EndsItsConnectionsWhereItGoes) {
   asio::io_context io;
   tcp::socket client(io);
   client.connect({asio::ip::make_address("127.0.0.1"), server->addresses().front().port});
-  // The world's thread takes the client in, which a reader then knows.
+  // The world's thread accepts the client, which the reader then knows.
   std::atomic<bool> stop = false;
   std::thread running([&] { world.run(stop); });
   std::array<char, 1> first{};
-  EXPECT_EQ(client.read_some(asio::buffer(first)), 1U);  // Its event of a connection.
+  EXPECT_EQ(client.read_some(asio::buffer(first)), 1U);  // The connection event.
   stop = true;
   running.join();
   server.reset();

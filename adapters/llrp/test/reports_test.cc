@@ -34,7 +34,7 @@ Bytes written(const TagReport& report, const ReportSpec& spec) {
 }
 
 /// TagReportData (240) with EPC-96 (13), AntennaID (1), PeakRSSI (6), FirstSeenTimestampUTC (2) and
-/// TagSeenCount (8), put together by hand from §16.2.7.3.
+/// TagSeenCount (8), assembled by hand from §16.2.7.3.
 TEST(Reports, AreOfTheseBytes) {
   ReportSpec spec = nothing_selected();
   spec.antenna = spec.peak_rssi = spec.first_seen = spec.seen_count = true;
@@ -47,7 +47,7 @@ TEST(Reports, AreOfTheseBytes) {
                    0x88, 0,    1}));
 }
 
-/// EPCData (241), its length in bits, where it is not of 96.
+/// EPCData (241), with its length in bits, for EPCs of other than 96 bits.
 TEST(Reports, OtherEpcsTellTheirLength) {
   TagReport report;
   report.epc = {0xabcd};
@@ -55,8 +55,8 @@ TEST(Reports, OtherEpcsTellTheirLength) {
             (Bytes{0, 240, 0, 12, 0, 241, 0, 8, 0, 16, 0xab, 0xcd}));
 }
 
-/// The vendor's parameters: 14 bytes each with their header; a quarter turn that grows with
-/// distance is three quarters of one that falls.
+/// The vendor's parameters: 14 bytes each with their header; a quarter cycle that increases with
+/// distance is three quarters of a cycle that decreases.
 TEST(Reports, PhaseFallsInTheVendorsWay) {
   ReportSpec spec = nothing_selected();
   spec.phase = spec.fine_rssi = spec.doppler = true;

@@ -26,7 +26,7 @@ TEST(Powers, RiseInQuartersOfADecibelAndAreFoundAgain) {
       EXPECT_EQ(table[i] - table[i - 1], 0.25);
     }
   }
-  EXPECT_EQ(power_table(20.0).back(), 30.0);  // no reader's antenna is mounted for less
+  EXPECT_EQ(power_table(20.0).back(), 30.0);  // tables extend to at least 30 dBm
 }
 
 }  // namespace

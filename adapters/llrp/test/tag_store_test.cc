@@ -15,7 +15,7 @@ MemoryMask epc_starts(std::uint8_t byte) {
   return mask;
 }
 
-/// The six state-unaware actions (§15.2.1.2.1.3), on a tag that matches and on one that does not.
+/// The six state-unaware actions (§15.2.1.2.1.3), for a tag that matches and for one that does not.
 TEST(TagStore, FiltersSelectAndUnselect) {
   const MemoryBanks matching({0xaa00});
   const MemoryBanks other({0xbb00});
@@ -27,7 +27,7 @@ TEST(TagStore, FiltersSelectAndUnselect) {
     EXPECT_EQ(is_selected(filters, other), expected[action][1]) << int{action};
   }
   EXPECT_TRUE(is_selected({}, other));
-  // One adds to another.
+  // Several filters combine.
   EXPECT_TRUE(is_selected({{epc_starts(0xaa), 1}, {epc_starts(0xbb), 1}}, other));
   EXPECT_FALSE(is_selected({{epc_starts(0xaa), 1}, {epc_starts(0xaa), 3}}, matching));
 }

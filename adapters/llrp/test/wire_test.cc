@@ -33,7 +33,7 @@ TEST(Wire, HeadersOfOthersAreRefused) {
   EXPECT_EQ(status({0x04, 0x3e, 0xff, 0, 0, 10, 0, 0, 0, 7}), Status::kInvalid);
 }
 
-/// LLRPStatus (287): M_Success and no text, as every answer begins.
+/// LLRPStatus (287): M_Success without text, with which every response begins.
 TEST(Wire, ParametersHaveTypeAndLength) {
   ByteWriter writer;
   writer.parameter(287, [&] {
@@ -48,7 +48,7 @@ TEST(Wire, ParametersHaveTypeAndLength) {
   EXPECT_EQ(all[0].whole, writer.written());
 }
 
-/// AntennaID (1), PeakRSSI (6) and EPC-96 (13): a type of seven bits and no length.
+/// AntennaID (1), PeakRSSI (6) and EPC-96 (13): a 7-bit type and no length.
 TEST(Wire, SomeParametersHaveAFixedLength) {
   Bytes bytes = {0x81, 0, 3, 0x86, 0xc4, 0x8d};
   for (std::uint8_t i = 0; i < 12; ++i) bytes.push_back(i);
@@ -94,7 +94,7 @@ RC_GTEST_PROP(Wire, WhatIsWrittenIsRead,
   RC_ASSERT_THROWS_AS(reader.u8(), Fault);
 }
 
-/// Whatever comes is a whole number of parameters, or a Fault.
+/// Any bytes are a whole number of parameters, or cause a Fault.
 RC_GTEST_PROP(Wire, AnyBytesAreParametersOrAFault, (const std::vector<std::uint8_t>& bytes)) {
   try {
     std::size_t size = 0;

@@ -36,7 +36,7 @@ struct FreeLz4 {
   void operator()(LZ4F_dctx* context) const { LZ4F_freeDecompressionContext(context); }
 };
 
-/// One frame or several, whole ones.
+/// One or several complete frames.
 const char* decompress_lz4(std::string_view bytes, std::string& out) {
   LZ4F_dctx* made = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)) != 0) {
@@ -50,7 +50,7 @@ const char* decompress_lz4(std::string_view bytes, std::string& out) {
     std::size_t given = out.size() - filled;
     awaited = LZ4F_decompress(made, out.data() + filled, &given, bytes.data(), &taken, nullptr);
     if (LZ4F_isError(awaited) != 0) return "it is not LZ4";
-    if (taken == 0 && given == 0) return kWrongSize;  // More would come than there is room for.
+    if (taken == 0 && given == 0) return kWrongSize;  // There is more output than expected.
     bytes.remove_prefix(taken);
     filled += given;
   }

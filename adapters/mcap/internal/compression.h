@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The compressions of chunks that the format knows.
+/// The format's compressions of chunks.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace tagfield::mcap_internal {
 
-/// As chunks name it: "", "lz4", "zstd".
+/// Name in chunks: "", "lz4", "zstd".
 std::string_view name_of(McapCompression compression);
 
-/// Appends what the bytes become. Throws Error where the library can't have the memory.
+/// Appends the compressed bytes. Throws Error if the library runs out of memory.
 void compress(McapCompression compression, std::string_view bytes, std::string& out);
 
-/// Makes `out` the bytes before compression. Gives null where they are exactly `size`, else what is
-/// wrong.
+/// Replaces `out` with the decompressed bytes. Returns null if they are exactly `size`, else what
+/// is wrong.
 const char* decompress(std::string_view compression, std::string_view bytes, std::size_t size,
                        std::string& out);
 

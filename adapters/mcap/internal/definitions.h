@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The schemas and channels that are met in a file.
+/// The schemas and channels found in a file.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace tagfield::mcap_internal {
 
-/// Records as they were met; of those with one id, the first.
+/// Records in the order found; of several with the same id, the first counts.
 class Definitions {
  public:
-  /// Takes a schema or a channel. Gives null, or what is wrong with it. Throws Error, which does
-  /// not name the file, where all take more than kMostMcapDefinitionBytes.
+  /// Adds a schema or a channel. Returns null, or what is wrong with it. Throws Error, which does
+  /// not name the file, if together they exceed kMostMcapDefinitionBytes.
   const char* add(Op op, std::string_view content);
 
-  /// Channels with their schemas, which may have come later. Gives the ids of channels that name a
-  /// schema that there is not.
+  /// Links channels to their schemas, which may follow them in the file. Returns the ids of
+  /// channels whose schema is missing.
   [[nodiscard]] std::vector<McapChannelId> resolve(Contents& contents) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A file that is read in pieces, anywhere.
+/// A file with random access.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace tagfield::mcap_internal {
 
 class InputFile {
  public:
-  /// Throws Error if there is none, or it can't be read.
+  /// Throws Error if it does not exist or can't be read.
   explicit InputFile(std::string path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -20,10 +20,10 @@ class InputFile {
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// Bytes that are within size(), until the next call. Throws Error if they can't be read.
+  /// Bytes within size(), valid until the next call. Throws Error if they can't be read.
   std::string_view view(std::uint64_t offset, std::uint64_t length);
 
-  /// The CRC32 of bytes that are within size(), however many.
+  /// The CRC32 of any number of bytes within size().
   std::uint32_t crc(std::uint64_t offset, std::uint64_t length);
 
  private:
@@ -31,7 +31,7 @@ class InputFile {
   int file_;
   std::uint64_t size_ = 0;
   std::uint64_t window_offset_ = 0;
-  std::string window_;  ///< More than was asked for, as most is read on and on.
+  std::string window_;  ///< More than requested, as reading is mostly sequential.
 };
 
 }  // namespace tagfield::mcap_internal

@@ -23,7 +23,7 @@ void put_chunk(const OpenChunk& chunk, std::string_view compression, std::string
   out += compressed;
 }
 
-/// Appends the index of each channel; gives where they begin in the file, as a map from channels.
+/// Appends the index of each channel; returns their offsets in the file, as a map from channels.
 std::string put_message_indexes(const OpenChunk& chunk, std::uint64_t offset, std::string& out) {
   std::string places;
   for (const auto& [channel, entries] : chunk.index) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The chunk that a writer fills.
+/// The chunk that a writer is filling.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace tagfield::mcap_internal {
 
-/// Earliest and latest; both zero where there is nothing.
+/// Earliest and latest; both zero if empty.
 struct TimeRange {
   std::uint64_t first_ns = 0;
   std::uint64_t last_ns = 0;
@@ -30,13 +30,13 @@ struct OpenChunk {
   void add(const McapMessage& message);
 };
 
-/// A chunk as it goes into the file.
+/// A chunk as written to the file.
 struct ClosedChunk {
   std::string bytes;  ///< The chunk, then its message indexes.
   std::string index;  ///< Its record in the summary.
 };
 
-/// `offset`: where it begins in the file.
+/// `offset`: of the chunk in the file.
 ClosedChunk close_chunk(const OpenChunk& chunk, McapCompression compression, std::uint64_t offset);
 
 }  // namespace tagfield::mcap_internal

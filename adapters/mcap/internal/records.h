@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Records of MCAP files, made and taken apart: https://mcap.dev/spec, major version 0.
+/// Writing and parsing of MCAP records: https://mcap.dev/spec, major version 0.
 #pragma once
 
 #include <concepts>
@@ -35,15 +35,14 @@ enum class Op : std::uint8_t {
 
 /// Before the first record and after the last.
 constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
-constexpr std::size_t kHeadBytes = 9;  ///< Of each record: what it is, and how long.
+constexpr std::size_t kHeadBytes = 9;  ///< Header of each record: type and length.
 constexpr std::size_t kMessageHeadBytes = 22;
-constexpr std::size_t kFooterBytes = 20;  ///< Without its head; never to be extended.
+constexpr std::size_t kFooterBytes = 20;  ///< Without its header; never to be extended.
 
-/// Continues the CRC32 of what came before.
+/// Continues the CRC32 `before` of the preceding bytes.
 std::uint32_t crc_of(std::string_view bytes, std::uint32_t before = 0);
 
-// --- Making
-// ---------------------------------------------------------------------------------------
+// --- Writing ----------------------------------------------------------------------
 
 /// Appends a number, little-endian.
 template <std::unsigned_integral Number>
@@ -53,7 +52,7 @@ void put(std::string& out, Number number) {
   }
 }
 
-/// Appends the length in 32 bits, then the bytes. Throws Error for those of more than 4 GB.
+/// Appends the length in 32 bits, then the bytes. Throws Error if they exceed 4 GB.
 void put_text(std::string& out, std::string_view text);
 
 /// Appends a whole record.
@@ -63,11 +62,10 @@ std::string schema_record(std::uint16_t id, const McapSchema& schema);
 std::string channel_record(McapChannelId id, const McapChannel& channel, std::uint16_t schema);
 void put_message(std::string& out, const McapMessage& message);
 
-// --- Taking apart
-// ---------------------------------------------------------------------------------
+// --- Parsing ----------------------------------------------------------------------
 
-/// Takes fields from the front of bytes that may be anything. What goes beyond their end is zero or
-/// empty, as is all after it, and is_whole() says so.
+/// Parses fields from untrusted bytes. A field beyond the end is zero or empty, as are all after
+/// it, and is_whole() is false.
 class Fields {
  public:
   explicit Fields(std::string_view bytes) : rest_(bytes) {}
@@ -83,7 +81,7 @@ class Fields {
     return static_cast<Number>(number);
   }
   std::string_view bytes(std::uint64_t count);
-  /// With its length in 32 bits before it.
+  /// Preceded by its length in 32 bits.
   std::string_view text() { return bytes(number<std::uint32_t>()); }
   [[nodiscard]] std::string_view rest() const { return rest_; }
   [[nodiscard]] bool is_whole() const { return is_whole_; }
@@ -98,10 +96,10 @@ struct Record {
   std::string_view content;
 };
 
-/// The record at the front, taken away from there; none where it goes beyond the end.
+/// Removes the record at the front and returns it; none if it extends beyond the end.
 std::optional<Record> take_record(std::string_view& bytes);
 
-/// None of these where fields go beyond the end of the content.
+/// Parsers return none if fields extend beyond the end of the content.
 struct SchemaFields {
   std::uint16_t id = 0;
   McapSchema schema;

@@ -15,13 +15,13 @@ namespace tagfield::mcap_internal {
 namespace {
 
 constexpr std::uint64_t kTailBytes = kHeadBytes + kFooterBytes + kMagic.size();
-/// What does not compress becomes somewhat longer.
+/// Incompressible data become slightly longer.
 constexpr std::uint64_t kMostRecordBytes = kMostMcapChunkBytes + (1U << 20U);
-/// Of records outside of chunks that are read together.
+/// Records outside of chunks are grouped up to this size.
 constexpr std::uint64_t kRunBytes = 1U << 20U;
 constexpr int kMostWarnings = 20;
 
-/// Warnings about one file. Of a file full of faults there is no need to hear of each.
+/// Warnings about one file, limited in number for badly damaged files.
 class Complaints {
  public:
   Complaints(std::string path, Diagnostics& diagnostics)
@@ -40,7 +40,7 @@ class Complaints {
   int left_ = kMostWarnings;
 };
 
-/// Adds a channel to those of a piece.
+/// Adds a channel to a piece's channels.
 void note(McapChannelId channel, std::vector<McapChannelId>& channels) {
   const auto place = std::lower_bound(channels.begin(), channels.end(), channel);
   if (place == channels.end() || *place != channel) channels.insert(place, channel);
@@ -48,8 +48,8 @@ void note(McapChannelId channel, std::vector<McapChannelId>& channels) {
 
 using Counts = std::map<McapChannelId, std::uint64_t>;
 
-/// Goes through a file record by record. All that it is told of lengths and places is checked
-/// against what is there.
+/// Scans a file record by record. All lengths and offsets in it are checked against its actual
+/// contents.
 class Scanner {
  public:
   Scanner(InputFile& file, Diagnostics& diagnostics)
@@ -76,16 +76,16 @@ class Scanner {
   Complaints complaints_;
   Contents found_;
   Definitions definitions_;
-  std::set<std::uint64_t> chunk_starts_;  ///< As the summary has them.
-  std::uint64_t end_;                     ///< Of the records that are gone through.
+  std::set<std::uint64_t> chunk_starts_;  ///< According to the summary.
+  std::uint64_t end_;                     ///< End of the records to be scanned.
   bool is_over_ = false;
   bool has_chunks_ = false;
-  bool is_data_right_ = false;  ///< As far as its CRC says.
-  Counts loose_counts_;         ///< Of messages outside of chunks.
+  bool is_data_right_ = false;  ///< According to its CRC.
+  Counts loose_counts_;         ///< Messages outside of chunks.
   std::string records_;
 };
 
-/// The summary is optional, and so is its CRC; without that it is not relied on.
+/// The summary is optional, and so is its CRC; without a CRC it is not relied on.
 void Scanner::read_summary(std::uint64_t start, std::uint64_t footer, std::uint32_t crc) {
   const std::uint64_t checked = footer + kHeadBytes + kFooterBytes - sizeof(crc);
   if (start < kMagic.size() || start > footer || footer - start > kMostRecordBytes) {
@@ -116,7 +116,7 @@ void Scanner::read_footer() {
   const bool is_footer = fields.number<std::uint8_t>() == static_cast<std::uint8_t>(Op::kFooter) &&
                          fields.number<std::uint64_t>() == kFooterBytes;
   const auto start = fields.number<std::uint64_t>();
-  (void)fields.number<std::uint64_t>();  // of the summary offsets
+  (void)fields.number<std::uint64_t>();  // start of the summary offsets
   const auto crc = fields.number<std::uint32_t>();
   if (!is_footer || fields.rest() != kMagic) {
     return complaints_.say(footer, "there is no footer at the end");
@@ -124,7 +124,7 @@ void Scanner::read_footer() {
   if (start != 0) read_summary(start, footer, crc);
 }
 
-/// Where a record that begins at `at` must have ended.
+/// Upper bound for the end of a record that begins at `at`.
 std::uint64_t Scanner::limit_after(std::uint64_t at) const {
   const auto next = chunk_starts_.upper_bound(at);
   return next == chunk_starts_.end() ? end_ : std::min(end_, *next);
@@ -154,7 +154,7 @@ void Scanner::take(Op op, std::uint64_t at, std::uint64_t length) {
   const bool is_wanted = op == Op::kSchema || op == Op::kChannel || op == Op::kMessage ||
                          op == Op::kChunk || op == Op::kDataEnd;
   if (op == Op::kFooter && at + kTailBytes == file_.size()) is_over_ = true;
-  if (!is_wanted) return;  // Indexes, attachments, and what later versions may add.
+  if (!is_wanted) return;  // Indexes, attachments, and records of later versions.
   if (length > kMostRecordBytes) {
     return complaints_.say(at, fmt::format("a record of {} bytes is left out, the limit is {}",
                                            length, kMostRecordBytes));
@@ -223,8 +223,8 @@ void Scanner::take_data_end(std::uint64_t at, std::uint64_t length) {
   }
 }
 
-/// Where there are chunks, messages should be in them. One outside may be what is left of a broken
-/// chunk, and no CRC but that of all data says that it is not.
+/// If there are chunks, messages should be in them. One outside may be a remnant of a damaged
+/// chunk, and only the CRC of all data can exclude that.
 void Scanner::judge_loose_messages() {
   if (loose_counts_.empty()) return;
   if ((has_chunks_ || !chunk_starts_.empty()) && !is_data_right_) {
@@ -286,7 +286,7 @@ Contents Scanner::scan() {
 
 const char* open_chunk(std::string_view content, std::string& records) {
   Fields fields(content);
-  (void)fields.bytes(2 * sizeof(std::uint64_t));  // Times, which are what its messages say.
+  (void)fields.bytes(2 * sizeof(std::uint64_t));  // Times, which are taken from the messages.
   const auto size = fields.number<std::uint64_t>();
   const auto crc = fields.number<std::uint32_t>();
   const std::string_view compression = fields.text();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// MCAP files byte by byte, as the tables of https://mcap.dev/spec have them, without the code that
-/// is tested.
+/// MCAP files byte by byte according to the tables of https://mcap.dev/spec, independent of the
+/// code under test.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace tagfield::mcap_test {
 
 const std::string kMagic("\x89MCAP0\r\n", 8);
 
-/// Little-endian, of as many bytes as the tables say.
+/// Little-endian number of `bytes` bytes.
 inline std::string le(std::uint64_t number, int bytes) {
   std::string out;
   for (int byte = 0; byte < bytes; ++byte) {
@@ -39,7 +39,7 @@ inline std::string record(int op, const std::string& content) {
   return le(static_cast<std::uint64_t>(op), 1) + le(content.size(), 8) + content;
 }
 
-/// CRC-32 of ISO 3309 bit by bit.
+/// CRC-32 of ISO 3309, bit by bit.
 inline std::uint32_t crc(std::string_view bytes) {
   std::uint32_t crc = 0xFFFFFFFFU;
   for (const char byte : bytes) {
@@ -65,7 +65,7 @@ inline std::string message(int channel, std::uint64_t log_time, const std::strin
                        le(log_time, 8) + bytes);
 }
 
-/// `size`: what it says of itself before compression.
+/// `size`: the stated size before compression.
 inline std::string chunk(const std::string& compression, const std::string& bytes,
                          std::uint64_t size, std::uint32_t crc_of_records) {
   return record(6, le(0, 16) + le(size, 8) + le(crc_of_records, 4) + text(compression) +
@@ -76,7 +76,7 @@ inline std::string chunk(const std::string& records) {
   return chunk("", records, records.size(), crc(records));
 }
 
-/// A file of these records, without a summary; with the CRC of the data.
+/// A file of these records, without a summary but with the CRC of the data.
 inline std::string file_of(const std::string& records) {
   const std::string data = kMagic + record(1, text("") + text("")) + records;
   return data + record(15, le(crc(data), 4)) + record(2, le(0, 20)) + kMagic;
@@ -84,13 +84,13 @@ inline std::string file_of(const std::string& records) {
 
 struct RecordThere {
   int op = 0;
-  std::size_t offset = 0;  ///< Of its first byte, in the bytes that were scanned.
+  std::size_t offset = 0;  ///< Of its first byte in the scanned bytes.
   std::string content;
 
   [[nodiscard]] std::size_t length() const { return 9 + content.size(); }
 };
 
-/// All records on end, from `at` to the end of `bytes`.
+/// All consecutive records from `at` to the end of `bytes`.
 inline std::vector<RecordThere> records_in(std::string_view bytes, std::size_t at = 0) {
   std::vector<RecordThere> found;
   while (at < bytes.size()) {
@@ -102,7 +102,7 @@ inline std::vector<RecordThere> records_in(std::string_view bytes, std::size_t a
   return found;
 }
 
-/// All records of a file, those in chunks not among them.
+/// All records of a file, without those in chunks.
 inline std::vector<RecordThere> records_of_file(const std::string& file) {
   return records_in(std::string_view(file).substr(0, file.size() - kMagic.size()), kMagic.size());
 }

@@ -14,11 +14,11 @@ namespace {
 
 using namespace mcap_test;
 
-/// A small file of three channels and several chunks, and what is in it.
+/// A small file with three channels and several chunks, and its contents.
 struct Whole {
   std::string file;
-  std::vector<Sent> messages;         ///< In order of time, which is that of writing.
-  std::vector<std::size_t> chunk_of;  ///< The message's, by its number.
+  std::vector<Sent> messages;         ///< In chronological order, in which they were written.
+  std::vector<std::size_t> chunk_of;  ///< By message number.
   std::vector<std::size_t> chunk_ends;
 };
 
@@ -89,7 +89,7 @@ TEST_P(McapDamage, OfACutFileAllWholeChunksAreRead) {
   }
 }
 
-/// The chunks of messages that are in the file but were not found.
+/// The chunks of messages in the file that were not found.
 std::set<std::size_t> lost_chunks(const Whole& whole, const std::vector<Sent>& found) {
   std::set<std::size_t> lost;
   for (std::size_t i = 0; i < whole.messages.size(); ++i) {

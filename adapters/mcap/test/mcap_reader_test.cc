@@ -21,7 +21,7 @@ using Texts = std::vector<std::string>;
 const std::string kDefinitions = schema(1, "S", "x") + channel(1, 1, "/a") + channel(2, 0, "/b");
 
 struct Read {
-  Texts bytes;  ///< Of the messages, as they come.
+  Texts bytes;  ///< Of the messages, in the order received.
   Texts warnings;
 };
 
@@ -35,7 +35,7 @@ Read read(const std::string& file) {
   return found;
 }
 
-/// The first warning, without the file's name; there must be one.
+/// The first warning, without the file's name.
 std::string warning_of(const std::string& file) {
   const Texts warnings = read(file).warnings;
   return warnings.empty() ? "(none)" : warnings.front().substr(folder_of_test().file("f").size());
@@ -168,7 +168,7 @@ TEST(McapReader, WarnsOfAWrongCrcOfTheData) {
   EXPECT_EQ(found.bytes, Texts{"light"});
   ASSERT_EQ(found.warnings.size(), 1U);
   EXPECT_TRUE(contains(found.warnings[0], "the data's CRC is wrong"));
-  // Beside chunks, it may be what is left of one.
+  // If there are chunks, it may be a remnant of one.
   file = file_of(chunk(kDefinitions + message(1, 1, "x")) + message(1, 1, "right"));
   file[file.find("right")] = 'l';
   found = read(file);
@@ -176,7 +176,7 @@ TEST(McapReader, WarnsOfAWrongCrcOfTheData) {
   EXPECT_EQ(found.warnings.size(), 2U);
 }
 
-// A chunk of zeros says that it is small, and a length says that it is huge.
+// A chunk of zeros claims to be small, and a length claims to be huge.
 TEST(McapReader, BelievesNoSizes) {
   const std::string bomb = zstd(std::string(300'000'000, '\0'));
   EXPECT_TRUE(contains(warning_of(file_of(chunk("zstd", bomb, 100, 0))),
@@ -232,7 +232,7 @@ TEST(McapReader, RefusesWhatIsNoMcapFile) {
 
 TEST(McapReader, TellsTheMessagesThatAreWanted) {
   const TemporaryFolder& folder = folder_of_test();
-  const std::string large(3'000'000, '8');  // More than is read at once.
+  const std::string large(3'000'000, '8');  // More than is read in one go.
   const std::string unwanted = chunk(message(2, 2, "2") + message(2, 8, large));
   const std::string begin =
       chunk(kDefinitions + message(1, 1, "1") + message(2, 3, "3") + message(1, 9, "9"));
@@ -250,7 +250,7 @@ TEST(McapReader, TellsTheMessagesThatAreWanted) {
   EXPECT_EQ(told({1, 2}), (Texts{"1", "2", "3", "5", "6", "7", large, "9"}));
   EXPECT_EQ(told({}), Texts{});
   EXPECT_EQ(told({3}), Texts{});
-  // A chunk of others is not looked at again.
+  // A chunk without wanted messages is not read again.
   std::string changed = file;
   changed[changed.find(unwanted) + unwanted.size() - 1] ^= 1;
   (void)folder.with("f", changed);

@@ -26,7 +26,7 @@ rc::Gen<std::string> bytes(int most) {
   });
 }
 
-/// Writes a drawn number of channels and messages; times are often equal, and in no order.
+/// Writes a random number of channels and messages; times are often equal, and in no order.
 Told write_any(const std::string& path, const McapOptions& options) {
   Told told;
   McapWriter writer(path, options);
@@ -104,8 +104,7 @@ RC_GTEST_PROP(McapRoundTrip, WhenChannelsAreAddedDoesNotMatter, ()) {
   RC_ASSERT(read_all(folder.file("g"), diagnostics) == read_all(folder.file("f"), diagnostics));
 }
 
-// --- The index against all records
-// ------------------------------------------------------------------
+// --- The index against all records -----------------------------------------------------
 
 struct Totals {
   std::uint64_t messages = 0;
@@ -115,7 +114,7 @@ struct Totals {
   std::map<std::uint64_t, std::uint64_t> of_channel;
 };
 
-/// An uncompressed chunk, the records after it, and what the summary says of it.
+/// Checks an uncompressed chunk, the records after it, and its entry in the summary.
 void check_chunk(const std::vector<RecordThere>& all, std::size_t at, const RecordThere& index,
                  Totals& totals) {
   const RecordThere& chunk = all[at];
@@ -160,7 +159,7 @@ std::vector<RecordThere> of_op(const std::vector<RecordThere>& records, int op) 
   return found;
 }
 
-/// Each run of records of one kind in the summary has its offset.
+/// Each sequence of records of one kind in the summary has its offset.
 void check_offsets(const std::vector<RecordThere>& summary, const std::vector<RecordThere>& all) {
   std::vector<std::string> expected;
   for (std::size_t at = 0; at < summary.size();) {

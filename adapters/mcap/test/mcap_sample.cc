@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ours, for readers and writers of others to be checked against (tests/mcap/mcap_test.py):
+// Reads or writes files with our code, to be checked against other implementations
+// (tests/mcap/mcap_test.py):
 //
 //   mcap_sample write PATH none|lz4|zstd CHUNK_BYTES MESSAGES
 //   mcap_sample read PATH      the profile, a line a channel, a line a message; warnings as errors

@@ -34,7 +34,7 @@ McapOptions small_chunks() {
 
 TEST(CrcOfTheTests, IsThatOfTheBooks) { EXPECT_EQ(crc("123456789"), 0xCBF43926U); }
 
-// Every byte of a file with one message, counted by hand along the tables of the specification.
+// Every byte of a file with one message, assembled by hand from the tables of the specification.
 TEST(McapWriter, WritesTheBytesOfTheSpecification) {
   const TemporaryFolder folder;
   McapWriter writer(folder.file("f"), kPlain);
@@ -84,7 +84,7 @@ TEST(McapWriter, GivesLargeMessagesChunksOfTheirOwn) {
   writer.write(small, 5, 5, "e");
   writer.write(small, 6, 6, "f");
   writer.finish();
-  // Times of each chunk, as they stand at its begin.
+  // Times of each chunk, as stated at its beginning.
   const std::string file = folder.text_of("f");
   std::vector<std::pair<int, int>> times;
   for (int first = 1; first <= 6; ++first) {
@@ -150,7 +150,7 @@ TEST(McapWriter, RefusesWhatItCouldNotReadAgain) {
   McapChannel channel = channel_of("/b");
   channel.metadata["long"] = long_text;
   EXPECT_THROW((void)writer.add_channel(channel), Error);
-  // None of that was the end of the file.
+  // The file can still be written after these errors.
   writer.write(a, 1, 1, "x");
   writer.finish();
   Diagnostics diagnostics;
@@ -191,7 +191,7 @@ TEST(McapWriter, WithoutFinishWholeChunksStay) {
     const McapChannelId a = writer.add_channel(channel_of("/a"));
     writer.write(a, 1, 1, "x");
     writer.write(a, 2, 2, "y");
-    // As a program leaves it that is killed now.
+    // As left by a program that is killed now.
     fs::copy(partial_of(path), folder.path() / "killed");
   }
   EXPECT_EQ(folder.text_of("f"), "old");

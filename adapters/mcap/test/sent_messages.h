@@ -16,7 +16,7 @@
 
 namespace tagfield::mcap_test {
 
-/// Topic, sequence, log time, time of sending, bytes.
+/// Topic, sequence, log time, publish time, bytes.
 using Sent = std::tuple<std::string, std::uint32_t, std::uint64_t, std::uint64_t, std::string>;
 
 inline McapChannel channel_of(const std::string& topic) {
@@ -24,7 +24,7 @@ inline McapChannel channel_of(const std::string& topic) {
   return {topic, std::make_shared<const McapSchema>(schema), "cdr", {{"topic", topic}}};
 }
 
-/// All that there is to read.
+/// All messages of a file.
 inline std::vector<Sent> read_all(const std::string& path, Diagnostics& diagnostics) {
   McapReader reader(path, diagnostics);
   std::vector<Sent> found;

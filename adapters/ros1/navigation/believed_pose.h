@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where a robot believes to be: its place by odometry now, on the map as far as that is known.
+/// A robot's estimate of its own pose: by odometry, and on the map if localized.
 #pragma once
 
 #include <optional>
@@ -10,21 +10,20 @@
 
 namespace tagfield {
 
-/// The map's frame may lag behind, as whatever localizes takes its time; odometry goes on
-/// meanwhile.
+/// The map's frame may lag behind, as localization takes time; odometry continues in the meantime.
 class BelievedPose {
  public:
-  /// Nothing is believed of a map frame that is older than `most_age_s` than odometry's.
+  /// A map frame that is more than `most_age_s` older than odometry is not used.
   BelievedPose(const FrameListener& frames, FrameNames names, double most_age_s)
       : frames_(frames), names_(std::move(names)), most_age_s_(most_age_s) {}
 
   /// X_MR now.
   [[nodiscard]] std::optional<PlanarPose> now() const;
-  /// X_MR where odometry says `odometry`.
+  /// X_MR when the pose by odometry is `odometry`.
   [[nodiscard]] std::optional<PlanarPose> at(const PlanarPose& odometry) const;
   /// X_OR now.
   [[nodiscard]] std::optional<PlanarPose> odometry() const;
-  /// Why there is none, in words.
+  /// Why there is no pose, as text.
   [[nodiscard]] std::string trouble() const;
 
  private:

@@ -45,7 +45,7 @@ class DrivingNode {
   void begin_goal(const geometry_msgs::PoseStamped& message);
   void follow_state();
   void end_goal(std::uint8_t status, const std::string& text);
-  void tell_status();
+  void publish_status();
   void tell_plan();
   void stand();
   void begin_anew();
@@ -196,7 +196,7 @@ void DrivingNode::on_goal(const geometry_msgs::PoseStamped& message) {
   is_under_way_ = true;
   try {
     begin_goal(message);
-    tell_status();
+    publish_status();
   } catch (const Error& error) {
     if (driver_) driver_->cancel();
     end_goal(GoalStatus::REJECTED, error.what());
@@ -226,7 +226,7 @@ void DrivingNode::on_tick() {
     tell_plan();
   }
   const bool is_due = (now - told_status_).toSec() >= kStatusInterval;
-  if (is_due && !status_.goal_id.id.empty()) tell_status();
+  if (is_due && !status_.goal_id.id.empty()) publish_status();
 }
 
 void DrivingNode::follow_state() {
@@ -248,12 +248,12 @@ void DrivingNode::end_goal(std::uint8_t status, const std::string& text) {
     ROS_ERROR("goal %s: %s", status == GoalStatus::REJECTED ? "refused" : "given up", text.c_str());
   }
   stand();
-  tell_status();
+  publish_status();
 }
 
 void DrivingNode::stand() { command_.publish(geometry_msgs::Twist{}); }
 
-void DrivingNode::tell_status() {
+void DrivingNode::publish_status() {
   told_status_ = ros::Time::now();
   actionlib_msgs::GoalStatusArray message;
   message.header.stamp = told_status_;

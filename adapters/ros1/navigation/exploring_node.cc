@@ -25,7 +25,7 @@ using actionlib_msgs::GoalStatus;
 
 constexpr double kFullTurn = 2.0 * 3.14159265358979323846;
 constexpr double kRate = 20.0;
-/// How often the way is thought over, by the map as it is then [s].
+/// Interval of replanning with the current map [s].
 constexpr double kPlanningInterval = 1.0;
 class ExploringNode {
  public:
@@ -62,7 +62,7 @@ class ExploringNode {
   double last_yaw_ = 0.0;
   std::optional<PlanarPose> goal_M_;
   ros::Time goal_sent_;
-  bool is_left_ = false;  ///< Whether the goal has come to an end.
+  bool is_left_ = false;  ///< Whether the current goal is done.
   ros::Time thought_;
   TimeWatch time_;
   ros::Publisher command_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
@@ -170,7 +170,7 @@ void ExploringNode::look_around() {
   if (is_done) phase_ = Phase::kExploring;
 }
 
-/// Takes up the map as it is now, and a new goal where there is none or it is of no use any more.
+/// Updates the map, and sets a new goal if there is none or it has become useless.
 void ExploringNode::think(const PlanarPose& pose_M) {
   thought_ = ros::Time::now();
   const bool was_going_home = explorer_->is_going_home();
@@ -203,7 +203,7 @@ void ExploringNode::finish() {
   message.data = 1;
   finished_.publish(message);
   if (!exits_) return;
-  ros::WallDuration(1.0).sleep();  // Whoever listens gets it.
+  ros::WallDuration(1.0).sleep();  // So that subscribers receive it.
   ros::shutdown();
 }
 

@@ -10,7 +10,7 @@ namespace tagfield {
 namespace {
 
 constexpr std::uint32_t kFrameQueue = 1000;
-/// What is dated so far ahead is left from before time went back [s].
+/// Stamps this far in the future are left over from before time went back [s].
 constexpr double kFarAhead = 5.0;
 
 }  // namespace
@@ -28,7 +28,7 @@ void FrameListener::take(const tf2_msgs::TFMessage& message, bool is_static) {
   const ros::Time latest = ros::Time::now() + ros::Duration(kFarAhead);
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     if (!is_static && transform.header.stamp > latest) continue;
-    // Refuses by itself, and says so, what is not finite, nameless or a loop.
+    // Rejects transforms that are not finite, have no name or form a loop, with a message.
     buffer_.setTransform(transform, "tf", is_static);
   }
   on_change_();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a node hears of frames (tf), and what it tells of them.
+/// A node's input and output of frames (tf).
 #pragma once
 
 #include <ros/ros.h>
@@ -17,7 +17,7 @@
 
 namespace tagfield {
 
-/// The names that a robot's frames have (REP-105).
+/// The names of a robot's frames (REP-105).
 struct FrameNames {
   std::string map = "map";
   std::string odom = "odom";
@@ -31,15 +31,15 @@ class FrameListener {
   /// Calls `on_change` after each message.
   FrameListener(ros::NodeHandle& node, std::function<void()> on_change);
 
-  /// X_FB of frame B in frame F at `stamp`, or none where tf can't tell.
+  /// X_FB of frame B in frame F at `stamp`, or none if unknown to tf.
   [[nodiscard]] std::optional<RigidTransform> find(const std::string& F, const std::string& B,
                                                    Time stamp) const;
-  /// The newest.
+  /// The newest X_FB.
   [[nodiscard]] std::optional<RigidTransform> newest(const std::string& F,
                                                      const std::string& B) const;
-  /// The time of the newest, or none; the epoch for one that never changes.
+  /// The stamp of the newest X_FB, if any; the epoch if it never changes.
   [[nodiscard]] std::optional<Time> newest_stamp(const std::string& F, const std::string& B) const;
-  /// Why there is no newest X_FB, in words.
+  /// Why there is no newest X_FB, as text.
   [[nodiscard]] std::string trouble(const std::string& F, const std::string& B) const;
   /// Forgets all that changes with time.
   void forget() { buffer_.clear(); }
@@ -53,11 +53,11 @@ class FrameListener {
   ros::Subscriber fixed_;
 };
 
-/// Tells where the odometry's frame is on the map, on `tf`.
+/// Publishes the pose of the odometry frame in the map on `tf`.
 class MapFrameTeller {
  public:
   MapFrameTeller(ros::NodeHandle& node, FrameNames names);
-  /// Of the robot's poses on the map and by odometry at the same moment.
+  /// Computes it from the robot's poses on the map and by odometry at the same time.
   void tell(const PlanarPose& pose_M, const PlanarPose& odometry, Time stamp);
 
  private:
@@ -65,10 +65,10 @@ class MapFrameTeller {
   ros::Publisher publisher_;
 };
 
-/// Notices that time went back.
+/// Detects that time went back.
 class TimeWatch {
  public:
-  /// Whether time is before what it was at the last call.
+  /// Whether the time is earlier than at the last call.
   bool went_back() {
     const ros::Time now = ros::Time::now();
     const bool back = now < last_;

@@ -44,7 +44,7 @@ class LocalizationNode {
   LocalizerSettings settings_ = localizer_settings(parameters_);
   double ahead_s_ = parameters_.number("transform_tolerance", 0.1);
   int seed_ = parameters_.count("seed", 1);
-  /// Where it starts, as soon as there are a map and a scan; none for anywhere.
+  /// Initial estimate, used once there are a map and a scan; none for global localization.
   std::optional<PoseEstimate> start_ = first_estimate();
   std::optional<OccupancyGrid> map_;
   std::optional<MonteCarloLocalizer> localizer_;
@@ -160,7 +160,7 @@ bool LocalizationNode::on_global_localization(std_srvs::Empty::Request&,
   return true;
 }
 
-/// Makes the localizer once there is a map; returns whether there is one.
+/// Creates the localizer once there is a map; returns whether it exists.
 bool LocalizationNode::prepare(const RigidTransform& X_RL) {
   if (localizer_) return true;
   if (!map_) {
@@ -188,7 +188,7 @@ void LocalizationNode::on_scan(const LocatedScan& located) {
     ROS_INFO(is_searching ? "localization: searches for its pose" : "localization: knows its pose");
     was_searching_ = is_searching;
   }
-  // A frame that is wrong by the width of a hall would be worse than none.
+  // A frame that is off by the width of a hall would be worse than none.
   if (!is_searching) tell_frame(located, estimate.pose_M);
   if (is_searching)
     start_.reset();

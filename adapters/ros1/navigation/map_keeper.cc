@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// The cells within `half_m` of `centre` along x and y.
+/// Marks the cells within `half_m` of `centre` along x and y as occupied.
 void occupy(OccupancyGrid& map, const Eigen::Vector2d& centre, double half_m) {
   const Eigen::Vector2i low = map.cell_of(centre.array() - half_m);
   const Eigen::Vector2i high = map.cell_of(centre.array() + half_m);
@@ -52,7 +52,7 @@ OccupancyGrid map_from_file(const std::string& yaml_path) {
 }
 
 OccupancyGrid with_occupied(OccupancyGrid map, const OccupancyGrid& keep_out) {
-  // A little less than half a cell, so that neighbours it merely touches stay as they are.
+  // Slightly less than half a cell, so that neighbours that it merely touches are unchanged.
   const double half_m = 0.499 * keep_out.resolution_m;
   for (int y = 0; y < keep_out.height; ++y) {
     for (int x = 0; x < keep_out.width; ++x) {
@@ -67,7 +67,7 @@ OccupancyGrid with_occupied(OccupancyGrid map, const OccupancyGrid& keep_out) {
 void write_map(const OccupancyGrid& grid, const std::string& yaml_path) {
   const std::filesystem::path path(yaml_path);
   const std::string image = path.stem().string() + ".pgm";
-  std::error_code ignored;  // What can't be made can't be written to either.
+  std::error_code ignored;  // If this fails, writing fails too.
   std::filesystem::create_directories(path.parent_path(), ignored);
   write_text_files({{(path.parent_path() / image).string(), map_to_pgm(grid)},
                     {yaml_path, map_to_yaml(grid, image)}});

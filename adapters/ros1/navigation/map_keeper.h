@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A map that comes from a file or goes into one, and is told to whoever asks.
+/// Reading, writing and publishing of a map.
 #pragma once
 
 #include <nav_msgs/GetMap.h>
@@ -14,7 +14,7 @@
 
 namespace tagfield {
 
-/// Publishes a map on `map` and `map_metadata`, latched both, and answers a service with it.
+/// Publishes a map on `map` and `map_metadata`, both latched, and serves it on request.
 class MapTeller {
  public:
   MapTeller(ros::NodeHandle& node, const std::string& service, std::string frame);
@@ -31,14 +31,13 @@ class MapTeller {
   ros::ServiceServer service_;
 };
 
-/// Reads a map file and tells its warnings; an empty map where `yaml_path` is "". Throws Error.
+/// Reads a map file and logs its warnings; an empty map if `yaml_path` is "". Throws Error.
 OccupancyGrid map_from_file(const std::string& yaml_path);
 
-/// `map` with all cells occupied that an occupied one of `keep_out` overlaps.
+/// `map` with all cells occupied that overlap an occupied cell of `keep_out`.
 OccupancyGrid with_occupied(OccupancyGrid map, const OccupancyGrid& keep_out);
 
-/// Writes PATH (….yaml) and the image beside it, each in one step. Throws Error if that can't be
-/// done.
+/// Writes PATH (….yaml) and the image beside it, each atomically. Throws Error on failure.
 void write_map(const OccupancyGrid& grid, const std::string& yaml_path);
 
 }  // namespace tagfield

@@ -11,10 +11,10 @@
 namespace tagfield {
 namespace {
 
-/// Where x, y and yaw stand among x, y, z, roll, pitch, yaw.
+/// Indices of x, y and yaw in x, y, z, roll, pitch, yaw.
 constexpr std::size_t kPlanarRows[] = {0, 1, 5};
 constexpr double kLeastVariance = 1e-6;
-/// A map that is turned less than this is not turned [rad].
+/// Rotations of a map below this count as none [rad].
 constexpr double kStraight = 1e-6;
 constexpr int kMostCells = 100'000;  ///< Along one side.
 
@@ -44,7 +44,7 @@ void check_angles(const sensor_msgs::LaserScan& message) {
   }
 }
 
-/// Beyond range_max a beam met nothing; 0 is without meaning.
+/// Beyond range_max there was no return; 0 is invalid.
 float range_of(float range, const LaserScan& scan) {
   if (std::isnan(range)) return 0.0F;
   if (range >= static_cast<float>(scan.most_range_m)) return nothing_range(scan.most_range_m);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Scans, maps and poses of the floor to ROS messages and back.
+/// Conversion of scans, maps and poses in the floor plane to and from ROS messages.
 ///
-/// What comes in is checked: all of these throw Error, in one line, on numbers that nobody can use.
+/// Incoming messages are checked: all functions throw Error, in one line, on unusable numbers.
 #pragma once
 
 #include <geometry_msgs/Pose.h>
@@ -34,14 +34,14 @@ Time time_of(const ros::Time& stamp);
 /// Times before 0 become 0.
 ros::Time ros_time(Time time);
 
-/// REP-117: +inf met nothing, -inf was too near, NaN is invalid. Finite ranges of range_max and
-/// more met nothing either, as lasers from before REP-117 say that; those below range_min are
-/// invalid. Ranges above kMostRange are cut.
+/// REP-117: +inf is no return, -inf too near, NaN invalid. Finite ranges of range_max and more are
+/// also no return, as lasers from before REP-117 report that; those below range_min are invalid.
+/// Ranges above kMostRange are clipped.
 LaserScan scan_of(const sensor_msgs::LaserScan& message);
 inline constexpr double kMostRange = 1000.0;  ///< [m]
 
-/// Cells beyond -1 … 100 are unknown. Throws Error also on a map whose size is not that of its data
-/// and on one that is turned: cells lie along the axes.
+/// Cells outside -1 … 100 are unknown. Throws Error also if a map's size does not match its data,
+/// or if it is rotated: cells must be aligned with the axes.
 OccupancyGrid grid_of(const nav_msgs::OccupancyGrid& message);
 nav_msgs::OccupancyGrid grid_message(const OccupancyGrid& grid, const std::string& frame,
                                      const ros::Time& stamp);
@@ -51,17 +51,17 @@ RigidTransform transform_of(const geometry_msgs::Transform& message);
 geometry_msgs::Pose planar_message(const PlanarPose& pose);
 geometry_msgs::Transform transform_message(const RigidTransform& X);
 
-/// Of x, y, yaw out of the six rows of x, y, z, roll, pitch, yaw. No variance is less than 1e-6, so
-/// that who is surely somewhere is not nowhere.
+/// Covariance of x, y, yaw from the six rows of x, y, z, roll, pitch, yaw. Variances are at least
+/// 1e-6, so that the distribution of a perfectly known pose is not degenerate.
 Eigen::Matrix3d covariance_of(const geometry_msgs::PoseWithCovariance& message);
 geometry_msgs::PoseWithCovariance covariance_message(const PlanarPose& pose,
                                                      const Eigen::Matrix3d& covariance);
 
-/// Each pose looks along the way.
+/// Each pose points along the path.
 nav_msgs::Path path_message(const std::vector<Eigen::Vector2d>& way, const std::string& frame,
                             const ros::Time& stamp);
 
-/// A frame's name without the slash that ROS once put in front.
+/// A frame's name without the leading slash of early ROS versions.
 std::string frame_of_message(const std::string& frame);
 
 }  // namespace tagfield

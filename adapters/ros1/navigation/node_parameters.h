@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A node's private parameters. One of the wrong type or beyond its bounds throws Error, in one
+/// A node's private parameters. A parameter of the wrong type or out of range throws Error, in one
 /// line with its name.
 #pragma once
 
@@ -25,15 +25,15 @@ class NodeParameters {
   [[nodiscard]] double positive(const std::string& name, double fallback) const;
   /// 1 or more.
   [[nodiscard]] int count(const std::string& name, int fallback) const;
-  /// `initial_pose_x`, `…_y`, `…_a` [m, rad]; 0.
+  /// `initial_pose_x`, `…_y`, `…_a` [m, rad]; default 0.
   [[nodiscard]] PlanarPose initial_pose() const;
 
  private:
   ros::NodeHandle node_;
 };
 
-/// Runs `make()`, which makes the node, and then the node until it is told to end. An exception is
-/// one line and exit code 2.
+/// Runs `make()`, which creates the node, and then the node until it is asked to exit. An exception
+/// causes one line and exit code 2.
 template <class Make>
 int run_node(Make make) {
   try {

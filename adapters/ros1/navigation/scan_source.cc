@@ -10,9 +10,9 @@
 namespace tagfield {
 namespace {
 
-/// A node that is busy takes up the newest of so many scans.
+/// Queue of a busy node: it keeps the newest scans.
 constexpr std::uint32_t kScanQueue = 5;
-/// Scans wait for tf so long [s].
+/// Time for which scans wait for tf [s].
 constexpr double kPatience = 1.0;
 constexpr double kSaySeldom = 5.0;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Laser scans together with where the robot was by its wheels.
+/// Laser scans together with the robot's pose by odometry.
 #pragma once
 
 #include <ros/ros.h>
@@ -24,12 +24,12 @@ struct LocatedScan {
   RigidTransform X_RL;  ///< The laser on the robot's base.
 };
 
-/// Hands scans over in order as soon as tf knows where the robot was at their stamps. Those that tf
-/// never comes to know of, that are out of order or make no sense are dropped, and it says why.
+/// Passes on scans in order as soon as tf knows the robot's pose at their stamps. Scans whose pose
+/// never becomes known, that are out of order or invalid are dropped with a warning.
 class ScanSource {
  public:
-  /// Where `straighten`, scans that were swept by a moving robot are deskewed; their stamp is then
-  /// that of the last beam.
+  /// If `straighten`, scans swept by a moving robot are deskewed; their stamp is then that of the
+  /// last beam.
   ScanSource(ros::NodeHandle& node, const FrameListener& frames, FrameNames names, bool straighten,
              std::function<void(const LocatedScan&)> on_scan);
   /// To be called when tf has changed.

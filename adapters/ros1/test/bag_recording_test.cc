@@ -43,7 +43,7 @@ BagRecording recording_of(const std::string& path, BagOptions options = {}) {
   return read_bag(path, options, diagnostics);
 }
 
-/// Writes with `body` and reads back.
+/// Writes a bag with `body` and reads it back.
 template <typename Body>
 BagRecording written(const Body& body, const BagOptions& options = {},
                      Diagnostics* diagnostics = nullptr) {
@@ -56,7 +56,7 @@ BagRecording written(const Body& body, const BagOptions& options = {},
   return read_bag(bag_in(folder), options, diagnostics != nullptr ? *diagnostics : unused);
 }
 
-/// The complaint about such a bag, from "run.bag" on.
+/// The error message for such a bag, from "run.bag" on.
 template <typename Body>
 std::string complaint_of(const Body& body) {
   const std::string message = error_of([&] { written(body); });
@@ -64,7 +64,7 @@ std::string complaint_of(const Body& body) {
   return name == std::string::npos ? message : message.substr(name);
 }
 
-/// 15 Hz over a full turn: reads, truth, and odometry at 20 Hz whose x is 0.1 m too great.
+/// One full circle at 15 Hz: reads, truth, and odometry at 20 Hz whose x is 0.1 m too large.
 void write_turn(BagWriter& writer) {
   writer.transform("/tf_static", at(0.0), "world", "odom", {});
   writer.transform("/tf_static", at(0.0), "base", "antenna", from_translation({0.0, 0.0, 0.5}));
@@ -91,7 +91,7 @@ TEST(ReadBag, GivesReadsThatLocateTheTagWithTheTruePose) {
       locate_tags(bag.reads, bag.truth.antenna_poses, options, diagnostics).estimates;
   ASSERT_EQ(with_truth.at(0).verdict, Verdict::kLocated) << with_truth[0].reason;
   EXPECT_LT((with_truth[0].candidates[0].p_WT - kTag).norm(), 1e-3);
-  // A belief that is off by the same everywhere shifts the tag by as much.
+  // A constant error of the believed poses shifts the tag by the same amount.
   const auto believed = locate_tags(bag.reads, bag.believed.poses, options, diagnostics).estimates;
   ASSERT_EQ(believed.at(0).verdict, Verdict::kLocated) << believed[0].reason;
   const Eigen::Vector3d shifted = kTag + Eigen::Vector3d(0.1, 0.0, 0.0);
@@ -174,7 +174,7 @@ TEST(ReadBag, SortsByStampWhateverTheOrderOfReceipt) {
 }
 
 TEST(ReadBag, KnowsTransformsAtTimeZero) {
-  // tf2 itself would take stamp 0 for "the latest".
+  // tf2 itself would interpret stamp 0 as "the latest".
   const BagRecording bag = written([](BagWriter& writer) {
     writer.reads(at(0.0), "a", {});
     for (const double t : {0.0, 1.0}) {
@@ -315,7 +315,7 @@ TEST(ReadBag, WarnsOfReadsThatRepeatAnother) {
   EXPECT_TRUE(contains(diagnostics.warnings()[0], "2 reads repeat"));
 }
 
-/// Everything that the untold reads tell.
+/// All reads and distances that are not held.
 BagRecording told(const BagRecording& bag) {
   BagRecording all;
   bag.untold->tell({[&](const TagRead& read) { all.reads.push_back(read); },
@@ -353,14 +353,14 @@ TEST(ReadBag, TellsReadsThatAreTooManyToBeHeld) {
       EXPECT_EQ(all.truth.distances[i].distance_m, held.truth.distances[i].distance_m);
     }
   }
-  // All else is as it was.
+  // Everything else is unchanged.
   ASSERT_EQ(bag.believed.poses.size(), held.believed.poses.size());
   EXPECT_EQ(bag.believed.poses.back().X_WA.translation,
             held.believed.poses.back().X_WA.translation);
   EXPECT_EQ(bag.truth.antenna_poses.size(), held.truth.antenna_poses.size());
   EXPECT_EQ(bag.truth.tag_positions.size(), 1U);
   EXPECT_EQ(bag.duration_s, held.duration_s);
-  // Where the truth is enough, nothing is believed.
+  // With a truth, the believed poses are left out.
   options.most_reads_believed = 190;
   EXPECT_EQ(recording_of(bag_in(folder), options).believed.poses.size(),
             held.believed.poses.size());
@@ -431,8 +431,7 @@ TEST(ReadBag, TellsHowFarItIs) {
   EXPECT_DOUBLE_EQ(last, 1.0);
 }
 
-// --- What is refused
-// ------------------------------------------------------------------------------
+// --- Refused files ---------------------------------------------------------------------
 
 TEST(ReadBag, RefusesWhatIsNoBag) {
   const TemporaryFolder folder;
@@ -586,7 +585,7 @@ TEST(ReadBag, FollowsNoSizeOrPlaceInTheFileThatCannotBe) {
     BagWriter writer(bag_in(folder));
     write_turn(writer);
   }
-  // What is said of a bag in which a byte is another: that so far after the last `before`.
+  // The error message for a bag with one byte replaced, `offset` after the last `before`.
   const auto with_byte = [&](const std::string& before, std::ptrdiff_t offset, char byte) {
     std::string bytes = folder.text_of("run.bag");
     const std::size_t place = bytes.rfind(before) + before.size();
@@ -594,7 +593,7 @@ TEST(ReadBag, FollowsNoSizeOrPlaceInTheFileThatCannotBe) {
     const std::string path = folder.with("changed.bag", bytes);
     return error_of([&] { recording_of(path); });
   };
-  // The size before the last field of the file's header: rosbag would read what is beyond it.
+  // The size of the last field in the file's header: rosbag would read beyond it.
   EXPECT_TRUE(contains(with_byte("chunk_count=", -15, 0x7f), "a record goes beyond its end"));
   EXPECT_TRUE(contains(with_byte("index_pos=", 0, 1), "the index is not at its stated position"));
   EXPECT_TRUE(contains(with_byte("chunk_pos=", 0, 1), "a chunk is not at its stated position"));

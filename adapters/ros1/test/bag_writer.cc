@@ -14,7 +14,7 @@
 
 namespace tagfield {
 
-/// A message that is whatever it says.
+/// A message of any stated type.
 struct RawMessage {
   std::string type;
   std::string md5;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Bags for tests, written through rosbag itself.
+/// Bags for tests, written by rosbag itself.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct ArrayTag {
   double rssi_dbm = 0.0;
 };
 
-/// Every message is received at its own stamp, or at `receipt` where that is set.
+/// Every message is received at its own stamp, or at `receipt` if set.
 class BagWriter {
  public:
   explicit BagWriter(const std::string& path, const std::string& compression = "");
@@ -44,11 +44,11 @@ class BagWriter {
                  const std::string& child, const RigidTransform& X_PC);
   void tag_array(const std::string& topic, Time stamp, const RigidTransform& X_WA,
                  const std::vector<ArrayTag>& tags);
-  /// Any bytes as a message of any type.
+  /// Writes any bytes as a message of any type.
   void raw(const std::string& topic, const std::string& type, const std::string& md5,
            const std::vector<std::uint8_t>& bytes);
 
-  /// When the messages from now on are received; Time::min() for at their stamps.
+  /// Receipt time of the following messages; Time::min() for their own stamps.
   Time receipt = Time::min();
 
  private:

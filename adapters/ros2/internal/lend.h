@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// C++ messages lent to structs of C, which point at what the messages hold for as long as they
-/// live.
+/// Conversion of C++ messages to C structs that point at the messages' contents, valid as long as
+/// these live.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace tagfield::ros2 {
 
-/// Lists of structs, which must be made anew.
+/// Owns the lists of structs that have to be newly created.
 class Arena {
  public:
   template <class T>
@@ -32,7 +32,7 @@ inline void lend(const std::string& text, char*& target, Arena&) {
   target = const_cast<char*>(text.c_str());
 }
 
-/// A text of bounded length is a part of its struct; what is too long is cut.
+/// A bounded string is stored within its struct; longer text is truncated.
 template <std::size_t N>
 void copy_text(const std::string& text, char (&target)[N]) {
   const std::size_t length = std::min(text.size(), N - 1);
@@ -47,7 +47,7 @@ void lend_numbers(const std::vector<T>& values, Sequence& target) {
   target._release = false;
 }
 
-/// `lend` of the elements is found where this is used.
+/// `lend` of the elements is found by argument-dependent lookup on instantiation.
 template <class C, class T, class Sequence>
 void lend_list(const std::vector<T>& values, Sequence& target, Arena& arena) {
   target._maximum = target._length = static_cast<std::uint32_t>(values.size());

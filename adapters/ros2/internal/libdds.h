@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Cyclone DDS, loaded when ROS 2 is first spoken.
+/// Cyclone DDS, loaded on the first use of ROS 2.
 #pragma once
 
 #include <dds/dds.h>
@@ -9,7 +9,7 @@
 
 namespace tagfield::ros2 {
 
-/// Its functions, by their names without "dds_".
+/// Functions of Cyclone DDS, named without the prefix "dds_".
 struct LibDds : LoadedLibrary {
   LibDds() : LoadedLibrary("ROS 2", TAGFIELD_LIBDDSC) {}
   decltype(&dds_create_domain) create_domain = function("dds_create_domain");

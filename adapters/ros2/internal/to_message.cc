@@ -7,14 +7,14 @@
 namespace tagfield::ros2 {
 namespace {
 
-/// Variance of what wheels on a floor don't measure: height, roll, pitch.
+/// Variance of the quantities that odometry on a floor does not measure: height, roll, pitch.
 constexpr double kFloorVariance = 1e-6;
 
 geometry_msgs::Quaternion rotation_message(const Eigen::Quaterniond& q) {
   return {q.x(), q.y(), q.z(), q.w()};
 }
 
-/// Rows and columns are x, y, z, roll, pitch, yaw; wheels tell of x, y and yaw.
+/// Rows and columns are x, y, z, roll, pitch, yaw; odometry measures x, y and yaw.
 std::array<double, 36> pose_covariance(const Eigen::Matrix3d& planar) {
   constexpr std::array<std::size_t, 3> kAxes = {0, 1, 5};
   std::array<double, 36> covariance{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Times, places and poses as ROS 2 messages.
+/// Times, positions and poses as ROS 2 messages.
 #pragma once
 
 #include <string>
@@ -21,7 +21,8 @@ std_msgs::Header header_message(Time stamp, const std::string& frame);
 /// The pose of frame `child` in frame `parent`.
 geometry_msgs::TransformStamped frame_message(Time stamp, const std::string& parent,
                                               const std::string& child, const RigidTransform& X);
-/// Wheels tell of x, y and yaw; of the rest they say that a robot stays on its floor.
+/// Odometry measures x, y and yaw; the covariance gives the rest a small variance, as a robot stays
+/// on its floor.
 nav_msgs::Odometry odometry_message(const OdometryReport& report, const RobotNames& names);
 
 }  // namespace tagfield::ros2

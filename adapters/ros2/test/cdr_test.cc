@@ -12,13 +12,13 @@ namespace {
 using namespace std::string_literals;
 
 // By hand from the tables of OMG DDSI-RTPS 10: a number begins at a multiple of its size, counted
-// behind the four bytes of the header.
+// from the end of the four-byte header.
 TEST(Cdr, GoldenBytesOfARead) {
   const tagfield_msgs::TagRead read{{{1, 2}, "ant"}, "E2", "r", "a", 1.0, 0.5, -2.0, 0.0};
   const std::string expected = "\0\1\0\0"s +              // CDR, little endian
                                "\1\0\0\0\2\0\0\0"s +      // stamp
                                "\4\0\0\0ant\0"s +         // frame_id: 16 bytes so far
-                               "\3\0\0\0E2\0\0"s +        // epc, and up to the next length
+                               "\3\0\0\0E2\0\0"s +        // epc, and padding up to the next length
                                "\2\0\0\0r\0\0\0"s +       // reader
                                "\2\0\0\0a\0\0\0"s +       // antenna: 40 bytes so far
                                "\0\0\0\0\0\0\xf0\x3f"s +  // 1.0
@@ -47,8 +47,8 @@ TEST(Cdr, GoldenBytesOfAMap) {
   const std::string expected = "\0\1\0\0\0\0\0\0\0\0\0\0\4\0\0\0map\0"s +  // header: 16
                                "\3\0\0\0\4\0\0\0"s +                       // map_load_time
                                "\0\0\0\x3f\3\0\0\0\1\0\0\0"s +  // resolution, width, height: 36
-                               "\0\0\0\0"s +                    // up to the next double
-                               std::string(54, '\0') + "\xf0\x3f"s +  // origin: not turned
+                               "\0\0\0\0"s +                    // padding up to the next double
+                               std::string(54, '\0') + "\xf0\x3f"s +  // origin: no rotation
                                "\3\0\0\0\xff\0\x64"s;                 // cells
   EXPECT_EQ(to_cdr(map), expected);
 }

@@ -10,7 +10,7 @@
 namespace tagfield::ros2 {
 namespace {
 
-/// What the environment says is set for one test alone.
+/// Sets environment variables for the duration of one test.
 class DiscoveryTest : public testing::Test {
  protected:
   void SetUp() override { clear(); }

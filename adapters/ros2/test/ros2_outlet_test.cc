@@ -175,7 +175,7 @@ TEST(Ros2Outlet, TheTopicOfARobotIsThereBeforeItsFirstPose) {
 TEST(Ros2Outlet, OdometryHasTheSpeedInTheRobotsFrame) {
   const auto kept = std::make_shared<Kept>();
   Ros2Outlet outlet(kept);
-  // Facing +y and driving there: forwards is +x of the robot.
+  // Facing +y and driving in that direction: forward is the robot's +x.
   const RigidTransform X_before = from_xyz_rpy({1, 0, 0}, {0, 0, M_PI / 2});
   const RigidTransform X_after = from_xyz_rpy({1, 1, 0}, {0, 0, M_PI / 2});
   outlet.on_robot_pose({at(1), "cart 1", X_before, std::nullopt});

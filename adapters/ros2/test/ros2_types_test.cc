@@ -6,7 +6,7 @@
 namespace tagfield::ros2 {
 namespace {
 
-// As ROS 2 (Iron to Jazzy) has them: `ros2 topic info --verbose`.
+// From ROS 2 (Iron to Jazzy): `ros2 topic info --verbose`.
 TEST(Ros2Types, HashesOfKnownTypesAreThoseOfRos2) {
   EXPECT_EQ(type_of(geometry_msgs::Twist{}).hash,
             "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a");
@@ -22,7 +22,7 @@ TEST(Ros2Types, HashesOfKnownTypesAreThoseOfRos2) {
             "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828");
 }
 
-// A change of these is a change of the messages: recordings and nodes of before don't fit any more.
+// If these change, the messages have changed: earlier recordings and nodes are then incompatible.
 TEST(Ros2Types, HashesOfOurMessagesArePinned) {
   EXPECT_EQ(type_of(tagfield_msgs::TagRead{}).hash,
             "RIHS01_e4e6bb731249e42019630c568c67862dd5f53b50d536f9e6a24289df2f18ec91");

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostBytes = 128 << 20;  ///< Of one row.
+constexpr int kMostBytes = 128 << 20;  ///< Per row.
 
 void require_file(const std::string& path) {
   std::error_code error;
@@ -22,7 +22,7 @@ void require_file(const std::string& path) {
   if (!fs::is_regular_file(status)) fail({path, 0}, "is a folder or no file, expected a database");
 }
 
-/// 0 where there is none.
+/// Size of a file; 0 if there is none.
 std::uint64_t bytes_of(const std::string& path) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
@@ -40,8 +40,8 @@ std::string address_of(const std::string& path) {
   return address + "?mode=ro";
 }
 
-/// Neither views nor functions out of the file, nothing of any size; a file that is shorter than it
-/// says it is, and a schema that is broken in parts, as far as they go.
+/// Disables views and functions from the file and limits sizes; allows files that are shorter than
+/// stated, and partly corrupt schemas, to be read as far as possible.
 void make_wary(sqlite3* database) {
   sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kMostBytes);
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);

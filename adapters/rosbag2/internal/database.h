@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Databases of others through SQLite, read alone, and trusted in nothing.
+/// Read-only access to untrusted SQLite databases.
 #pragma once
 
 #include <sqlite3.h>
@@ -19,17 +19,18 @@ struct CloseStatement {
   void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 };
 
-/// A query, row after row.
+/// Results of a query, row by row.
 class Rows {
  public:
   explicit Rows(sqlite3_stmt* statement) : statement_(statement) {}
 
-  /// Goes to the next row; whether there is one. Where not, is_broken() tells whether there should.
+  /// Advances to the next row; returns whether there is one. If not, is_broken() tells whether that
+  /// is due to an error.
   bool next();
   [[nodiscard]] bool is_broken() const { return is_broken_; }
 
   [[nodiscard]] std::int64_t number(int column) const;
-  /// Empty where it is NULL. Holds until the next row.
+  /// Empty if NULL. Valid until the next row.
   [[nodiscard]] std::string_view bytes(int column) const;
   [[nodiscard]] bool is_blob(int column) const;
 
@@ -40,18 +41,18 @@ class Rows {
 
 class Database {
  public:
-  /// Nothing is ever written, beside the file neither. What a file in write-ahead mode has in
-  /// PATH-wal belongs to it. Of a file that was cut off what is there is read. Throws Error where
-  /// there is no such file.
+  /// Never writes anything, not even files beside the database. In write-ahead mode, PATH-wal is
+  /// part of the database. A truncated file is read as far as it goes. Throws Error if there is no
+  /// such file.
   explicit Database(const std::string& path);
 
-  /// Bytes of the file, and of what belongs to it.
+  /// Bytes of the file and of its write-ahead log.
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// Whether it has a table of that name: no view and nothing virtual, which could be endless.
+  /// Whether it has a table of that name: not a view or virtual table, which could be endless.
   [[nodiscard]] bool has_table(const std::string& name) const;
-  /// Throws Error "PATH: …" where the query can't be, as for a column that is not there.
+  /// Throws Error "PATH: …" if the query is invalid, such as for a missing column.
   [[nodiscard]] Rows rows(const std::string& query) const;
-  /// What SQLite complained of last.
+  /// SQLite's last error message.
   [[nodiscard]] std::string complaint() const { return sqlite3_errmsg(database_.get()); }
 
  private:

@@ -10,10 +10,10 @@ namespace {
 
 constexpr const char* kName = "tagfield-whole-pages";
 
-/// In front of the file as SQLite's own VFS has it.
+/// Header in front of the file object of SQLite's own VFS.
 struct CutFile {
   sqlite3_file file;
-  sqlite3_int64 page_bytes;  ///< Of a database, else 1.
+  sqlite3_int64 page_bytes;  ///< Page size of a database, else 1.
 };
 
 sqlite3_file* own(sqlite3_file* file) {
@@ -51,7 +51,7 @@ const sqlite3_io_methods kMethods = {
     nullptr,
     nullptr};
 
-/// As bytes 16 and 17 of a database have it, the greater first; 1 stands for 65536.
+/// Page size from bytes 16 and 17 of a database, big-endian; 1 stands for 65536.
 sqlite3_int64 page_bytes_of(sqlite3_file* file) {
   std::array<unsigned char, 2> bytes{};
   if (file->pMethods->xRead(file, bytes.data(), bytes.size(), 16) != SQLITE_OK) return 1;

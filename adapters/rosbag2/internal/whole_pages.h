@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Databases that were cut off in the middle of a page.
+/// Databases that were truncated in the middle of a page.
 #pragma once
 
 namespace tagfield::rosbag2_internal {
 
-/// The name of a way for SQLite to open files (a VFS) that shows databases without the part of a
-/// page at their end, which it would fill up with zeros and take for messages. No file is locked,
-/// or made.
+/// The name of an SQLite VFS that hides a partial page at the end of a database, which SQLite would
+/// fill up with zeros and take for messages. It neither locks nor creates files.
 const char* whole_pages();
 
 }  // namespace tagfield::rosbag2_internal

@@ -24,11 +24,11 @@ constexpr const char* kTables =
     "INSERT INTO topics VALUES (1, '/a', 'pkg/msg/A', 'cdr', ''), (7, '/b', 'pkg/msg/B', 'cdr', "
     "'');";
 
-/// A database that is being written.
+/// A database being written.
 struct Writing {
   explicit Writing(const std::string& path) {
     EXPECT_EQ(sqlite3_open(path.c_str(), &database), 0);
-    run("PRAGMA journal_mode=MEMORY; PRAGMA synchronous=OFF");  // As rosbag2 has it.
+    run("PRAGMA journal_mode=MEMORY; PRAGMA synchronous=OFF");  // As in rosbag2.
   }
   ~Writing() { sqlite3_close(database); }
   Writing(const Writing&) = delete;
@@ -88,7 +88,7 @@ Found read_all(const std::string& path) {
   return found;
 }
 
-/// How many messages, from the first on, are those that were written.
+/// Number of messages, from the first on, that are as written.
 std::size_t right_ones(const Found& found) {
   for (std::size_t i = 0; i < found.messages.size(); ++i) {
     const auto expected =
@@ -129,7 +129,7 @@ TEST(RecordedDatabase, WhatIsOnlyInTheWriteAheadLogIsThereToo) {
     writing.run("PRAGMA journal_mode=WAL; PRAGMA wal_autocheckpoint=0");
     writing.run(kTables);
     add_messages(writing, 1000);
-    // As a recorder that is killed now leaves it.
+    // As left by a recorder that is killed now.
     fs::create_directory(folder.path() / "killed");
     fs::copy(path, folder.path() / "killed/run.db3");
     fs::copy(path + "-wal", folder.path() / "killed/run.db3-wal");
@@ -199,7 +199,7 @@ RC_GTEST_PROP(RecordedDatabase, AnyBytesDoNoHarm, ()) {
   std::string bytes = folder.text_of("run.db3");
   const int changes = *rc::gen::element(1, 5, 200);
   for (int i = 0; i < changes; ++i) {
-    // Where trees begin it hurts most.
+    // Damage near the roots of the B-trees has the greatest effect.
     const auto most = *rc::gen::element<std::size_t>(bytes.size(), 5000);
     bytes[*rc::gen::inRange<std::size_t>(0, std::min(most, bytes.size()))] =
         *rc::gen::arbitrary<char>();

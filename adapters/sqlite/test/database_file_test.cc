@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of the test's own.
+/// Provides a temporary folder for the test.
 class DatabaseFileTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -31,7 +31,7 @@ class DatabaseFileTest : public ::testing::Test {
     return (folder_ / name).string();
   }
 
-  /// Writes a table with a name and columns that SQL would stumble over.
+  /// Writes a table whose name and columns need quoting in SQL.
   [[nodiscard]] std::string written(const std::string& name) const {
     DatabaseFile file(path(name), name);
     file.add_table({"odd \"table\"", {"key", "select", "a.b"}}, {"key"});
@@ -51,7 +51,7 @@ std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Each row of a query as its columns with their kinds, as SQLite itself reads them.
+/// Each row of a query as its columns and their types, as read by SQLite itself.
 std::vector<std::string> rows_of(const std::string& path, const std::string& query) {
   std::vector<std::string> rows;
   sqlite3* database = nullptr;

@@ -70,7 +70,7 @@ TEST(AsOneLine, LeavesOutTheMiddleOfWhatIsTooLong) {
   EXPECT_EQ(cut.substr(0, 6), "beginx");
   EXPECT_EQ(cut.substr(cut.size() - 4), "xend");
   EXPECT_NE(cut.find("x … x"), std::string::npos);
-  // No character is cut in two: "ü" has two bytes, of which each cut falls between.
+  // No character is split: "ü" has two bytes, and each cut would fall between them.
   std::string odd = "x";
   for (int i = 0; i < 3000; ++i) odd += "ü";
   const std::string whole = as_one_line(odd);

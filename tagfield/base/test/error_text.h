@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What an Error said, for tests of messages.
+/// The message of an Error, for tests.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace tagfield {
 
-/// The message of the Error that `body` throws; "(no error)" where it throws none.
+/// The message of the Error that `body` throws; "(no error)" if it throws none.
 template <class Body>
 std::string error_of(const Body& body) {
   try {

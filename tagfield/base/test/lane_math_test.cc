@@ -21,7 +21,7 @@ double any_in(RandomStream& stream, double low, double high) {
   return low + (high - low) * uniform(stream);
 }
 
-/// How far `value` is from `exact`, in units of the last place of a double there.
+/// The error of `value` against `exact`, in units of the last place of a double there.
 double units_off(double value, long double exact) {
   const double nearest = std::abs(static_cast<double>(exact));
   const double unit = std::nextafter(nearest, std::numeric_limits<double>::infinity()) - nearest;
@@ -34,7 +34,7 @@ TEST(LaneLog, IsTheLogarithmWithinOneUnit) {
   double worst = 0.0;
   double worst_10 = 0.0;
   for (int i = 0; i < kDraws; ++i) {
-    // Over all exponents, near 1, and over (0, 1] as noise asks for it.
+    // Over all exponents, near 1, and over (0, 1], as needed for noise.
     const double spread =
         std::ldexp(1.0 + uniform(stream), static_cast<int>(stream() % 2045) - 1022);
     for (const double x : {spread, any_in(stream, 0.7, 1.5), uniform_above_0(stream)}) {
@@ -89,7 +89,8 @@ TEST(LaneSineCosine, AreThoseWithinOneUnit) {
                            any_in(stream, -1e-9, 1e-9)}) {
       const auto exact = static_cast<long double>(x);
       const SineCosine found = lane_sine_cosine(x);
-      // Beside its zeros the x87's own sine is told a little too little of π: 2⁻⁶⁴ of the angle.
+      // Near its zeros, the x87's own sine has an error of 2⁻⁶⁴ of the angle, because its π is not
+      // exact.
       const double blur = std::abs(x) * 0x1p-64;
       const auto off = [&](double value, long double reference) {
         const auto error =
@@ -145,7 +146,7 @@ RC_GTEST_PROP(LaneWrapToTwoPi, IsWrapToTwoPiWithinItsTurns, ()) {
   }
 }
 
-// Against Box and Muller's method with the system's functions; radii are at most 9.5.
+// Against the Box-Muller method with the system's functions; radii are at most 9.5.
 RC_GTEST_PROP(LaneNormalPair, IsStandardNormalPair, ()) {
   const std::uint64_t seed = any_word();
   RandomStream words(seed, Purpose::kReadNoise);
@@ -169,7 +170,7 @@ TEST(LaneNormalPair, IsFiniteForTheWordsAtTheEnds) {
   }
 }
 
-/// All of them over the same numbers, one after the other.
+/// All functions applied to the same numbers, one after the other.
 std::vector<double> all_in_lanes(InstructionSet set, const std::vector<std::uint64_t>& words,
                                  std::size_t count) {
   std::vector<double> found(5 * count);

@@ -53,7 +53,7 @@ TEST_P(ParallelFor, GivesWhatAPlainLoopGives) {
 TEST_P(ParallelFor, PassesOnTheLowestIndexThatThrew) {
   const auto threads = static_cast<std::size_t>(std::max(GetParam(), 1));
   std::atomic<std::size_t> begun{0};
-  // All wait for one another, so that every index throws.
+  // All wait for each other, so that every index throws.
   const auto body = [&](std::size_t i) {
     ++begun;
     while (begun < threads) std::this_thread::yield();
@@ -67,7 +67,7 @@ TEST_P(ParallelFor, StopsAfterAnException) {
   const auto body = [&](std::size_t i) {
     ++calls;
     if (i == 3) throw std::runtime_error("three");
-    // Those after it wait until it has been begun.
+    // Later indices wait until index 3 has started.
     while (i > 3 && calls < 4) std::this_thread::yield();
   };
   EXPECT_EQ(thrown_by(10'000'000, GetParam(), body), "three");
@@ -92,8 +92,8 @@ TEST(ParallelForOnOneThread, StaysOnTheCallersThread) {
   EXPECT_EQ(where, std::this_thread::get_id());
 }
 
-/// To be run in a process of its own: takes all but 64 MB of address space away, which leaves room
-/// for the stacks of a few threads. Exits with 0 if all was done.
+/// Runs in a process of its own: limits the address space to 64 MB more than in use, which leaves
+/// room for the stacks of a few threads. Exits with 0 if all work was done.
 [[noreturn]] void loop_with_few_threads() {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;

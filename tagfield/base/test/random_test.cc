@@ -24,7 +24,7 @@ std::uint64_t high(std::uint64_t a, std::uint64_t b) {
   return static_cast<std::uint64_t>((static_cast<Wide>(a) * b) >> 64U);
 }
 
-/// Philox-4x64-10 as section 3.3 of Salmon et al. (SC'11) prints it.
+/// Philox-4x64-10 as printed in section 3.3 of Salmon et al. (SC'11).
 Words philox(Words x, Key key) {
   constexpr std::uint64_t kM0 = 0xD2E7470EE14C6C93;
   constexpr std::uint64_t kM1 = 0xCA5A826395121157;
@@ -42,7 +42,7 @@ std::vector<std::uint64_t> words_of(RandomStream stream, std::size_t count) {
   return words;
 }
 
-/// Bits in which two streams differ, as a deviate of N(0, 1) if they are independent.
+/// Number of bits in which two streams differ, as a deviate of N(0, 1) if they are independent.
 double difference_deviate(const RandomStream& a, const RandomStream& b) {
   constexpr std::size_t kCount = 4000;
   const auto first = words_of(a, kCount);
@@ -139,7 +139,7 @@ TEST(StandardNormalPair, HasTheNormalDistribution) {
   std::vector<double> second;
   std::vector<double> first_squared;
   std::vector<double> second_squared;
-  for (std::uint64_t i = 0; i < kCount; ++i) {  // As the simulator does: a stream for each event.
+  for (std::uint64_t i = 0; i < kCount; ++i) {  // As in the simulator: one stream per event.
     RandomStream stream(11, Purpose::kReadNoise, 1, 2, i);
     const auto [x, y] = standard_normal_pair(stream);
     first.push_back(x);

@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-/// The definition of the distance, followed without a table.
+/// The definition of the distance, evaluated recursively without a table.
 std::size_t by_definition(std::string_view a, std::string_view b) {
   if (a.empty() || b.empty()) return a.size() + b.size();
   const std::string_view a1 = a.substr(1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Statistics for tests with fixed seeds. Every bound below has a false-alarm probability of at
-/// most 1e-6 for one use.
+/// most 1e-6 per use.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 
 namespace tagfield::statistics {
 
-/// Two-sided bound of a standard normal deviate: P(|Z| > 4.892) = 1e-6.
+/// Two-sided bound for a standard normal deviate: P(|Z| > 4.892) = 1e-6.
 inline constexpr double kNormalBound = 4.892;
-/// Kolmogorov's bound of √n·D: 2·exp(-2·2.694²) = 1e-6.
+/// Kolmogorov's bound for √n·D: 2·exp(-2·2.694²) = 1e-6.
 inline constexpr double kKolmogorovBound = 2.694;
 
 inline double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-/// √n times the greatest distance of the draws' empirical distribution from `cdf`.
+/// √n times the maximum distance between the empirical distribution of the draws and `cdf`.
 template <class Cdf>
 double kolmogorov(std::vector<double> draws, const Cdf& cdf) {
   std::sort(draws.begin(), draws.end());
@@ -48,7 +48,7 @@ inline double covariance(const std::vector<double>& a, const std::vector<double>
 
 inline double variance(const std::vector<double>& values) { return covariance(values, values); }
 
-/// √n times the correlation: nearly N(0, 1) where the two are independent.
+/// √n times the correlation: nearly N(0, 1) if the two are independent.
 inline double correlation_deviate(const std::vector<double>& a, const std::vector<double>& b) {
   return std::sqrt(static_cast<double>(a.size())) * covariance(a, b) /
          std::sqrt(variance(a) * variance(b));

@@ -9,7 +9,7 @@ namespace tagfield {
 namespace {
 
 TEST(Student, IsThatOfTheTables) {
-  // Any table of t, column 0.975.
+  // From any table of the t distribution, column 0.975.
   constexpr std::array<std::array<double, 2>, 7> kTable = {
       {{1, 12.706}, {2, 4.303}, {3, 3.182}, {4, 2.776}, {5, 2.571}, {10, 2.228}, {30, 2.042}}};
   for (const auto& [degrees, quantile] : kTable) {

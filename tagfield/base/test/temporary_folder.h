@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A folder for one test, gone after it. No two tests share one, whatever runs beside.
+/// A folder for one test, deleted after it. No two tests share one, even if they run in parallel.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,13 +31,13 @@ class TemporaryFolder {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
 
-  /// Writes a file with the standard library alone; gives its path.
+  /// Writes a file with the standard library alone; returns its path.
   [[nodiscard]] std::string with(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name, std::ios::binary) << text;
     return file(name);
   }
-  /// The whole of a file, read with the standard library alone.
+  /// The whole content of a file, read with the standard library alone.
   [[nodiscard]] std::string text_of(const std::string& name) const {
     std::ifstream stream(path_ / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -55,7 +55,8 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// The running test's own folder; gone when the next test asks for its own, or the program ends.
+/// The running test's own folder; deleted when the next test requests one, or when the program
+/// ends.
 inline const TemporaryFolder& folder_of_test() {
   static const testing::TestInfo* owner = nullptr;
   static std::optional<TemporaryFolder> folder;

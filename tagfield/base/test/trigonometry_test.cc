@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kDraws = 200'000;
 
-/// How many units in the last place `value` is off the exact one.
+/// The error of `value`, in units in the last place.
 double units_off(double value, long double exact) {
   const auto nearest = static_cast<double>(exact);
   const double unit = std::nextafter(std::abs(nearest), HUGE_VAL) - std::abs(nearest);
@@ -28,7 +28,7 @@ TEST(ArcTangent, IsThatOfLongDoubleWithinThreeUnits) {
   RandomStream stream(3, Purpose::kReadNoise);
   double worst = 0.0;
   for (int i = 0; i < kDraws; ++i) {
-    // Of all sizes, and beside the axes, the diagonals and the table's places.
+    // Of all magnitudes, and close to the axes, the diagonals and the table's entries.
     const double size = std::pow(10.0, any_within(stream, -100.0, 100.0));
     const double place = std::round(any_within(stream, -16.0, 16.0)) / 16.0;
     const double tiny = std::pow(10.0, any_within(stream, -17.0, 0.0));

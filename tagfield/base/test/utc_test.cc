@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::minutes;
 
-// Seconds since 1970 by `date -u -d … +%s`.
+// Seconds since 1970 from `date -u -d … +%s`.
 TEST(UtcFromText, TakesDatesClocksAndZones) {
   EXPECT_EQ(utc_from_text("1970-01-01"), Time{});
   EXPECT_EQ(utc_from_text("2020-01-01T00:00:00Z"), time_from_seconds(1577836800));

@@ -22,7 +22,7 @@ TEST(Wildcard, MatchesTheWholeName) {
   EXPECT_FALSE(is_pattern("a.b"));
 }
 
-/// By trying all that the first star may stand for.
+/// Tries everything that the first star may match.
 bool naively_matches(const std::string& pattern, const std::string& name) {
   if (pattern.empty()) return name.empty();
   if (pattern.front() == '*') {

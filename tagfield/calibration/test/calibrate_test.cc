@@ -17,7 +17,7 @@ double normal(Rng& rng, double sigma) {
   return sigma > 0.0 ? std::normal_distribution<double>(0.0, sigma)(rng) : 0.0;
 }
 
-/// A drive and what is wrong about it. By no code of the simulator.
+/// A drive and its errors, made without any code of the simulator.
 struct Drive {
   Eigen::Vector3d place{0.03, -0.04, 0.02};  ///< Of the phase centre in the believed frame.
   double late_s = 0.02;
@@ -29,7 +29,8 @@ struct Drive {
   double lost = 0.0;
 };
 
-/// Antenna on a robot that drives a figure of eight at an uneven pace, lift going up and down.
+/// Antenna on a robot that drives a figure of eight at an uneven pace, with a lift going up and
+/// down.
 RigidTransform believed_at(double t) {
   const double s = 0.12 * t + 0.15 * std::sin(0.5 * t);
   const double x = 2.5 * std::sin(s);
@@ -143,7 +144,7 @@ TEST(Calibrate, StandsNoiseLostReadsAndTagsWithOffsetsOfTheirOwn) {
 }
 
 TEST(Calibrate, ErrorsAreWhatTheSigmasSay) {
-  // Sum over 12 drives of squares of four errors in sigmas, each: χ² of 48 degrees of freedom lies
+  // Sum of squares of four normalized errors over 12 drives: χ² with 48 degrees of freedom lies
   // between 30.8 and 69.0 in 95 % of cases.
   double sum = 0.0;
   for (unsigned seed = 1; seed <= 12; ++seed) {
@@ -163,7 +164,7 @@ TEST(Calibrate, ErrorsAreWhatTheSigmasSay) {
 }
 
 TEST(Calibrate, WhatIsNotObservableStaysAsItWas) {
-  // An antenna at rest: neither its place nor lateness can be told from one tag.
+  // A stationary antenna: neither its position nor the latency is observable from one tag.
   Recorded recorded = record({}, {{"a", {3.5, 1.0, 0.5}}}, 4);
   for (AntennaPose& pose : recorded.poses) pose.X_WA = from_translation({0.0, 0.0, 1.0});
   for (TagRead& read : recorded.reads) read.phase_rad = 1.0;
@@ -176,7 +177,7 @@ TEST(Calibrate, WhatIsNotObservableStaysAsItWas) {
   EXPECT_NEAR(found.time_offset_s.value, 0.0, 1e-6);
 }
 
-/// With every phase drawn anew.
+/// Replaces every phase by a random one.
 Recorded at_random(Recorded recorded, unsigned seed) {
   Rng rng(seed);
   for (TagRead& read : recorded.reads) {

@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-/// With phase centres at these places along y, sure to 1 mm; x always the same.
+/// Calibrations with phase centres at these positions along y, known to 1 mm; x is always the same.
 std::vector<Calibration> experiments(const std::vector<double>& y_m) {
   std::vector<Calibration> all;
   for (const double y : y_m) {
@@ -32,7 +32,7 @@ TEST(CarryOver, WhatIsTheSameInAllIsKept) {
   EXPECT_NEAR(antenna.place_m[0].value, 0.03, 1e-12);
   EXPECT_TRUE(antenna.place_m[1].observable);
   EXPECT_NEAR(antenna.place_m[1].value, 0.01, 1e-12);
-  // By hand: a scatter of 2 mm, for one more experiment √(1 + 1/3) times that.
+  // By hand: a scatter of 2 mm, times √(1 + 1/3) for one more experiment.
   EXPECT_NEAR(antenna.place_m[1].sigma, 0.002 * std::sqrt(4.0 / 3.0), 1e-9);
   EXPECT_FALSE(antenna.place_m[2].observable);
   EXPECT_NEAR(antenna.noise_rad, 0.11, 1e-12);

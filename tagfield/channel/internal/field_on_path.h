@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A wave's field on its way from surface to surface.
+/// A wave's field along a path from surface to surface.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 using Eigen::Vector3cd;
 using Eigen::Vector3d;
 
-/// E·e, not conjugated, as receivers take it in.
+/// E·e, without conjugation, as for reception.
 inline Complex dot(const Vector3cd& a, const Vector3cd& b) {
   return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
 }
@@ -35,14 +35,15 @@ inline Vector3cd turned_to_world(const RadioEnd& end, const Vector3cd& e_A) {
   return R * e_A;
 }
 
-/// Unit normal of the plane of incidence; at normal incidence any of those.
+/// Unit normal of the plane of incidence; at normal incidence, an arbitrary choice.
 inline Vector3d across(const Vector3d& k, const Vector3d& normal) {
   const Vector3d s = k.cross(normal);
   const double length = s.norm();
   return length > 1e-9 ? Vector3d(s / length) : Vector3d(normal.unitOrthogonal());
 }
 
-/// The field after a surface that keeps TE along s and takes TM from s × `before` to s × `after`.
+/// The field after a surface that keeps the TE direction s and maps TM from s × `before` to s ×
+/// `after`.
 inline Vector3cd after_surface(const Vector3cd& field, const FresnelPair& pair, const Vector3d& s,
                                const Vector3d& before, const Vector3d& after) {
   const Complex te = dot(field, s.cast<Complex>());
@@ -56,10 +57,11 @@ inline FresnelPair reflection(const Material& material, Complex eta, double cosi
   return slab_reflection(eta, cosine, *material.wall_m, lambda_m);
 }
 
-/// A single surface without a stated thickness stands for a sheet of this one [m].
+/// A single surface without a given thickness represents a sheet of this thickness [m].
 inline constexpr double kSheet = 0.002;
 
-/// Of an object crossed: the slab between entry and exit, or the walls of a hollow one.
+/// Transmission through an object: the slab between entry and exit, or the walls of a hollow
+/// object.
 inline FresnelPair crossing(const Material& material, Complex eta, const Crossing& through,
                             double lambda_m) {
   if (material.crossing_db) {

@@ -11,10 +11,10 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr Complex kJ{0.0, 1.0};
-/// Beyond it a wave has lost 8,600 dB: e^x is 0 anyway, and infinities are kept out.
+/// At this exponent a wave has lost 8,600 dB. The limit avoids infinities; e^x is 0 anyway.
 constexpr double kMostLoss = 1000.0;
 
-/// √(η − sin²θ), decaying into the material.
+/// √(η − sin²θ), with the sign that decays into the material.
 Complex normal_component(Complex eta, double cosine) {
   const Complex root = std::sqrt(eta - (1.0 - cosine * cosine));
   return root.imag() > 0.0 ? -root : root;
@@ -27,7 +27,7 @@ Complex through(Complex root, double thickness_m, double lambda_m) {
   return std::exp(exponent);
 }
 
-/// The slab's two faces see each other's echoes.
+/// Includes the multiple reflections between the slab's two faces.
 Complex reflection_of_slab(Complex face, Complex once) {
   const Complex twice = once * once;
   return face * (1.0 - twice) / (1.0 - face * face * twice);
@@ -37,9 +37,9 @@ Complex transmission_of_slab(Complex face, Complex once) {
   return (1.0 - face * face) * once / (1.0 - face * face * once * once);
 }
 
-/// half_space_reflection() with the normal component that it takes.
+/// half_space_reflection(), given the normal component.
 FresnelPair face_of(Complex eta, double cosine, Complex root) {
-  // Where both are 0, air at grazing incidence, nothing is reflected by anything.
+  // If a sum is 0, as for air at grazing incidence, nothing is reflected.
   const Complex te_sum = cosine + root;
   const Complex tm_sum = eta * cosine + root;
   return {te_sum == 0.0 ? Complex{} : (cosine - root) / te_sum,

@@ -14,7 +14,7 @@ constexpr Complex kImaginary{0.0, 1.0};
 /// e^{jπ/4}.
 Complex eighth_turn() { return std::polar(1.0, 0.25 * kPi); }
 
-/// Beyond it the continued fraction is the better.
+/// Above this, the continued fraction is more accurate.
 constexpr double kFar = 2.5;
 
 /// 1 − erf(z) by its power series, for |z| up to 3.
@@ -39,11 +39,11 @@ Complex erfcx_far(Complex z) {
   return 1.0 / fraction;
 }
 
-/// cot(a/2n)·F(kL·a±), with `a` the angle from the boundary that the term belongs to, π ± β: the
-/// product stays finite where the cotangent doesn't.
+/// cot(a/2n)·F(kL·a±), with `a` the angle from the term's boundary, π ± β: the product stays finite
+/// where the cotangent doesn't.
 Complex term(const WedgeGeometry& wedge, double a) {
   const double n = wedge.exterior_rad / kPi;
-  // 2πnN is the whole turn that is nearest to a; ε is what is left of it.
+  // 2πnN is the multiple of a full turn nearest to a; ε is the remainder.
   const double epsilon = a - kTwoPi * n * std::round(a / (kTwoPi * n));
   const double kl = wedge.wave_number * wedge.distance_m;
   constexpr double kAtBoundary = 1e-6;

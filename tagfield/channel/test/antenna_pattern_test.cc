@@ -98,7 +98,8 @@ std::complex<double> dot(const Eigen::Vector3cd& a, const Eigen::Vector3cd& b) {
   return (a.array() * b.array()).sum();
 }
 
-/// Of an antenna that looks along x and one that looks back at it, turned by `roll` about that.
+/// The coupling of an antenna that faces along x with one that faces back, rotated by `roll` about
+/// that axis.
 std::complex<double> face_to_face(const AntennaPattern& a, const AntennaPattern& b, double roll) {
   const Eigen::Matrix3d R =
       (Eigen::AngleAxisd(roll, Vector3d::UnitX()) * Eigen::AngleAxisd(kPi, Vector3d::UnitZ()))
@@ -138,14 +139,15 @@ TEST(Polarization, OfCrossedWiresIsLinearAtTheSideAndOfTheOtherHandBehind) {
   right.polarization = PolarizationKind::kRightCircular;
   const Eigen::Vector3cd side = field_direction(right, Vector3d::UnitY());
   EXPECT_NEAR(std::abs(side.z()), 1.0, 1e-12);
-  // Behind, seen along the way, the same wires turn the other way round.
+  // Behind, seen along the direction of propagation, the field of the same wires rotates in the
+  // opposite sense.
   const Eigen::Vector3cd front = field_direction(right, Vector3d::UnitX());
   const Eigen::Vector3cd back = field_direction(right, -Vector3d::UnitX());
   EXPECT_NEAR((front - back).norm(), 0.0, 1e-12);
 }
 
 TEST(Polarization, RightHandTurnsClockwiseForWhomItLeaves) {
-  // IEEE 145: seen along the direction of travel the field turns clockwise as time goes on. Along
+  // IEEE 145: seen along the direction of propagation, the field rotates clockwise in time. Along
   // x, with y to the left and z up, clockwise is from z (up) to −y (right).
   AntennaPattern right;
   right.polarization = PolarizationKind::kRightCircular;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Any parameters of the paper's model, for properties.
+/// Arbitrary parameters of the paper's model, for property tests.
 #pragma once
 
 #include <rapidcheck/gtest.h>

@@ -35,7 +35,7 @@ RadioWorld world_of(const Shape& shape, const RigidTransform& X_WC, const Materi
   return radio_world(scene, options, diagnostics);
 }
 
-/// A sheet in the plane x = 0 with its border along z placed y = 0.
+/// A sheet in the plane x = 0 with its border along z at y = 0.
 MeshPtr half_plane(double half) {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, -half}, {0, 0, half}, {0, -half, half}, {0, -half, -half}};
@@ -70,10 +70,10 @@ Field field_at(const RadioWorld& world, const RadioEnd& antenna, const RadioEnd&
 
 RigidTransform placed(const Vector3d& p_W) { return {Eigen::Quaterniond::Identity(), p_W}; }
 
-/// Knife edge of Recommendation ITU-R P.526, exactly: |(1 + j)/2 ∫_ν^∞ e^{−jπt²/2} dt|.
+/// Exact knife-edge diffraction of Recommendation ITU-R P.526: |(1 + j)/2 ∫_ν^∞ e^{−jπt²/2} dt|.
 double knife_edge_db(double nu) {
   constexpr int kSteps = 40000;
-  constexpr double kEnd = 10.0;  // Along t = ν + s e^{−jπ/4} it just decays.
+  constexpr double kEnd = 10.0;  // Along t = ν + s e^{−jπ/4} the integrand just decays.
   const auto f = [&](double s) {
     const Complex t = nu + s * std::polar(1.0, -0.25 * kPi);
     return std::exp(Complex(0.0, -0.5 * kPi) * t * t) * std::polar(1.0, -0.25 * kPi);
@@ -86,7 +86,7 @@ double knife_edge_db(double nu) {
 TEST(DiffractedGain, BehindAScreenIsTheKnifeEdges) {
   const RadioWorld world = world_of(half_plane(2000.0), {}, known("perfect_conductor"));
   ASSERT_EQ(world.edges().size(), 4U);
-  // Far ends, so that angles are small, where the knife edge holds.
+  // Distant ends, so that angles are small, where the knife-edge formula holds.
   const double far = 60.0;
   const double lambda = wavelength(kEdgeFrequency);
   for (const double depth : {0.0, 0.5, 1.0, 2.0, 4.0}) {
@@ -100,16 +100,16 @@ TEST(DiffractedGain, BehindAScreenIsTheKnifeEdges) {
       const double free = lambda / (4.0 * kPi * 2.0 * far);
       bent.push_back(20.0 * std::log10(std::abs(field.bent) / free));
     }
-    // The knife edge knows no polarization; a screen is as much above it in one as below in the
-    // other.
+    // The knife-edge formula ignores polarization; a screen is as much above it in one polarization
+    // as below in the other.
     const double nu = depth * std::sqrt(2.0 / lambda * (2.0 / far));
     EXPECT_NEAR(0.5 * (bent[0] + bent[1]), knife_edge_db(nu), 0.02 + 0.02 * nu) << depth;
     EXPECT_NEAR(bent[0], bent[1], 0.25 + 0.6 * nu) << depth;
   }
 }
 
-/// Most that the field changes from one place of the tag to the next on a circle around the edge,
-/// against the free field.
+/// Maximum change of the field between consecutive positions of the tag on a circle around the
+/// edge, relative to the free-space field.
 double greatest_jump(const RadioWorld& world, const AntennaPattern& pattern, const Vector3d& p_WA,
                      double around_rad, double z, double from, double to, int steps, int order,
                      const ChannelEffects& effects) {
@@ -133,14 +133,14 @@ struct EdgeCase {
   Shape shape;
   RigidTransform X_WC;
   Material material;
-  double from;  ///< The tag's angles: free space.
+  double from;  ///< Range of the tag's angles: free space.
   double to;
   int order;
   double antenna;  ///< Its angle.
 };
 
 std::vector<EdgeCase> edge_cases() {
-  // The box's edge is along z placed x = y = 0; the box is where x < 0 and y < 0.
+  // The box's edge is along z at x = y = 0; the box is where x < 0 and y < 0.
   const Shape box = Box{{40.0, 40.0, 60.0}};
   const RigidTransform at_edge = placed({-20.0, -20.0, 0.0});
   Material walls = known("concrete");
@@ -177,7 +177,7 @@ TEST(DiffractedGain, LeavesNoStepAtAnyBoundary) {
 }
 
 TEST(DiffractedGain, FillsStepsThatOpticsHas) {
-  // The test above would see them: placed the shadow's boundary and placed the mirror's.
+  // The test above would detect them: at the shadow boundary and at the reflection boundary.
   const RadioWorld world = world_of(half_plane(30.0), {}, known("metal"));
   const AntennaPattern pattern = without_pattern(0.0);
   const RigidTransform X_WA = placed({-4.0, 2.0, 0.0});
@@ -192,7 +192,7 @@ TEST(DiffractedGain, FillsStepsThatOpticsHas) {
 }
 
 TEST(DiffractedGain, LosesOnEitherLegWhatItCrosses) {
-  // A screen's edge, and walls of a stated loss before it, behind it, or both.
+  // A screen's edge, with walls of a given loss before it, behind it, or both.
   Material wall = known("wood");
   wall.crossing_db = 6.0;
   const auto bent = [&](bool before, bool behind) {
@@ -211,7 +211,7 @@ TEST(DiffractedGain, LosesOnEitherLegWhatItCrosses) {
     std::vector<DiffractedPath> over;
     TraceOptions trace;
     trace_diffracted(world.scene, world.edges(), X_WA.translation, X_WT.translation, trace, over);
-    // Over the screen's edge alone, not over those of the walls.
+    // Only paths over the screen's edge, not over those of the walls.
     Complex sum{};
     for (const DiffractedPath& path : over) {
       if (std::abs(path.p_W.x()) > 0.1 || std::abs(path.p_W.y()) > 0.1) continue;
@@ -232,7 +232,7 @@ RC_GTEST_PROP(DiffractedGain, IsTheSameFromBothEnds, ()) {
   const auto number = [](double from, double to) {
     return from + (to - from) * *rc::gen::inRange(0, 1000001) * 1e-6;
   };
-  // Not of hollow things, whose walls are taken placed the angle placed which they are entered.
+  // Not for hollow objects, whose walls are evaluated at the angle of entry.
   const char* const names[] = {"metal", "concrete", "wood"};
   const Material material = known(names[*rc::gen::inRange(0, 3)]);
   const RadioWorld world =

@@ -46,7 +46,7 @@ struct Links {
   explicit Links(RandomStream& stream, std::size_t count)
       : antenna(any_pattern(stream)), tag(any_pattern(stream)), X_WA(any_pose(stream)) {
     for (std::size_t i = 0; i < count; ++i) X_WT.push_back(any_pose(stream));
-    // Straight along both wires, in one place, and far beyond the loops' reach.
+    // Exactly along both wires, with coincident ends, and far outside the loops' domain.
     X_WT[0] = {X_WA.rotation,
                X_WA * Eigen::Vector3d(0.0, std::sin(antenna.tilt_rad), std::cos(antenna.tilt_rad))};
     X_WT[1] = X_WA;
@@ -78,7 +78,7 @@ struct Links {
   Carrier carrier;
 };
 
-// Against one link after the other by complex vectors and the standard library's functions.
+// Against one link at a time with complex vectors and the standard library's functions.
 RC_GTEST_PROP(FreeSpaceGains, AreThoseOfEachLink, ()) {
   RandomStream stream(*rc::gen::arbitrary<std::uint64_t>(), Purpose::kPlaces);
   const Links links(stream, 30);
@@ -87,7 +87,7 @@ RC_GTEST_PROP(FreeSpaceGains, AreThoseOfEachLink, ()) {
     const RadioEnd antenna{links.antenna, links.X_WA};
     const RadioEnd tag{links.tag, links.X_WT[i]};
     const auto alone = free_space_gain(antenna, tag, links.carrier, links.effects);
-    // The greatest that such a link can have, where the polarizations fit.
+    // The maximum for such a link, with matching polarizations.
     const double d = (tag.X_WA.translation - links.X_WA.translation).norm();
     const double most = d > 0.0 ? 10.0 * links.carrier.lambda_m / (4.0 * kPi * d) : 0.0;
     RC_ASSERT(std::abs(gains[i] - alone) <= 1e-12 * std::abs(alone) + 1e-14 * most);

@@ -15,7 +15,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Textbook forms by the grazing angle ψ (T. S. Rappaport, Wireless Communications, eqs. 4.19/4.20,
-/// with the vertical coefficient's sign turned so that a perfect conductor has +1).
+/// with the vertical coefficient's sign reversed so that a perfect conductor has +1).
 Complex rappaport_vertical(Complex eta, double psi) {
   const Complex root = std::sqrt(eta - std::cos(psi) * std::cos(psi));
   return (eta * std::sin(psi) - root) / (eta * std::sin(psi) + root);
@@ -25,7 +25,7 @@ Complex rappaport_horizontal(Complex eta, double psi) {
   return (std::sin(psi) - root) / (std::sin(psi) + root);
 }
 
-/// A slab as the sum of its echoes, the way a wave goes to and fro in it.
+/// A slab as the sum of its echoes, as a wave goes back and forth in it.
 Complex slab_by_echoes(Complex face, Complex once, bool transmitted) {
   Complex sum = transmitted ? Complex{} : face;
   Complex inside = (1.0 - face * face) * once;  // (1 + r)(1 − r): into the slab and out of it.

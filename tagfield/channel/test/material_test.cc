@@ -17,7 +17,7 @@ TEST(Permittivity, OfConcreteAt900MHzIsTheRecommendations) {
 }
 
 TEST(Permittivity, FollowsTheRecommendationsTableOverFrequency) {
-  // Table 3 of P.2040-3, worked out with bc: ε' = a·f^b, σ = c·f^d, η'' = 17.97510·σ/f.
+  // Table 3 of P.2040-3, computed with bc: ε' = a·f^b, σ = c·f^d, η'' = 17.97510·σ/f.
   struct Figure {
     const char* material;
     double hertz;

@@ -33,8 +33,8 @@ MovingBody body_of(const std::string& material, const Vector3d& p_W, const Vecto
 
 double level_db(Complex h) { return 20.0 * std::log10(std::abs(h)); }
 
-/// Huygens' waves of the plane across the way without those of the screen, with the phase to second
-/// order, summed up.
+/// Sum of Huygens' wavelets over the plane across the path, except those on the screen, with the
+/// phase to second order.
 Complex by_huygens(double before, double after, double low, double high, double from, double to) {
   const double k = carrier().wave_number;
   const double curve = 0.5 * k * (1.0 / before + 1.0 / after);
@@ -71,7 +71,7 @@ TEST(PastBody, IsTheSameFromBothEndsAndFarAwayIsNotThere) {
   MovingBody far = body;
   far.p_W.y() = 60.0;
   EXPECT_NEAR(std::abs(past_body(far, a, b, carrier())), 1.0, 0.02);
-  // Behind an end, or around it, it is not in the way.
+  // A body behind an end, or around it, is not an obstacle.
   far.p_W = {-4.0, 0.0, 0.9};
   EXPECT_EQ(past_body(far, a, b, carrier()), Complex(1.0));
   far.p_W = {-2.0, 0.1, 1.0};
@@ -86,7 +86,7 @@ TEST(PastBody, AirLetsAllThrough) {
   EXPECT_NEAR(level_db(past_body(air, {-2, 0, 0}, {2, 0, 0}, carrier())), -6.02, 0.05);
 }
 
-/// Log-derivatives J_n'(x)/J_n(x), n = 0 … most, downwards.
+/// Log-derivatives J_n'(x)/J_n(x), n = 0 … most, by downward recurrence.
 std::vector<Complex> log_derivatives(Complex x, int most) {
   std::vector<Complex> d(static_cast<std::size_t>(most) + 40, 0.0);
   for (std::size_t n = d.size() - 1; n > 0; --n) {
@@ -98,9 +98,9 @@ std::vector<Complex> log_derivatives(Complex x, int most) {
 
 Complex hankel(int n, double x) { return {std::cyl_bessel_j(n, x), -std::cyl_neumann(n, x)}; }
 
-/// Field behind an endless cylinder against the free one's, of a line source: the exact series
-/// (J. J. Bowman et al., Electromagnetic and Acoustic Scattering by Simple Shapes, chapter 2).
-/// `along` is the electric field along the axis, else the magnetic.
+/// Field of a line source behind an infinite cylinder relative to the free-space field: the exact
+/// series (J. J. Bowman et al., Electromagnetic and Acoustic Scattering by Simple Shapes, chapter
+/// 2). With `along`, the electric field is along the axis, otherwise the magnetic.
 Complex field_by_series(double radius, Complex eta, double before, double after, bool along) {
   const double k = carrier().wave_number;
   constexpr int kMost = 24;
@@ -133,7 +133,7 @@ TEST(PastBody, OfAPersonIsBetweenTheExactWaterPhantomsPolarizations) {
       const double got = level_db(past_body(body, {-before, 0, 0}, {after, 0, 0}, carrier()));
       const double upright = level_db(field_by_series(radius, eta, before, after, true));
       const double across = level_db(field_by_series(radius, eta, before, after, false));
-      // A screen knows no polarization: it lies between the two.
+      // A screen ignores polarization, so its result lies between the two.
       EXPECT_LT(got, across) << radius << " " << before;
       EXPECT_GT(got, across - 2.0) << radius << " " << before;
       EXPECT_GT(got, upright) << radius << " " << before;

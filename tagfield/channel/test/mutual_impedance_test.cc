@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 constexpr double kLambda = 0.35;
 constexpr double kWave = kTwoPi / kLambda;
 
-/// In wavelengths, with wires that are thin against them.
+/// In wavelengths, with wires that are thin compared to them.
 Complex thin(double across, double along) {
   constexpr double kLong = 100.0;
   return parallel_impedance(kTwoPi / kLong, across * kLong, along * kLong);
@@ -28,7 +28,7 @@ void expect_near(Complex actual, Complex expected, double tolerance, const std::
   EXPECT_NEAR(actual.imag(), expected.imag(), tolerance) << what;
 }
 
-/// Upright field of an upright Hertzian dipole of 1 A m, near and far.
+/// Vertical field of a vertical Hertzian dipole of 1 A m, near and far.
 Complex hertzian(double across, double along) {
   const double r = std::hypot(across, along);
   const Complex jkr(0.0, kWave * r);
@@ -40,7 +40,7 @@ Complex hertzian(double across, double along) {
   return radial * cosine * cosine - polar * (1.0 - cosine * cosine);
 }
 
-/// −∫∫ E_z of one wire's pieces times the other's current, both cosines of half a wave.
+/// −∫∫ E_z of one wire's segments times the other's current, both with half-wave cosine currents.
 Complex summed_up(double across, double along) {
   constexpr int kPieces = 600;
   constexpr double kStep = 0.5 * kLambda / kPieces;
@@ -70,8 +70,8 @@ TEST(ExponentialIntegral, HasTheTabulatedSineAndCosineIntegrals) {
 }
 
 TEST(ParallelImpedance, IsThePublishedOneSideBySideAndInLine) {
-  // Kraus, Antennas; Balanis, Antenna Theory: side by side at 0, λ/2 and λ, in line end to end.
-  // They have 120π Ω for free space's 376.73.
+  // Kraus, Antennas; Balanis, Antenna Theory: side by side at 0, λ/2 and λ, and collinear end to
+  // end. They use 120π Ω for free space's 376.73.
   constexpr double kFree = 376.730313668 / (120.0 * kPi);
   expect_near(thin(0.0, 0.0), Complex(73.13, 42.54) * kFree, 0.01, "one place");
   expect_near(thin(0.0, 0.0), kDipoleImpedance_ohm, 0.005, "one place");

@@ -25,7 +25,7 @@ constexpr double kTiny = std::numeric_limits<double>::denorm_min();
 
 std::vector<double> draws_of(const OptionalDistribution& distribution, std::size_t count) {
   std::vector<double> draws;
-  for (std::size_t i = 0; i < count; ++i) {  // As the simulator does: a stream for each event.
+  for (std::size_t i = 0; i < count; ++i) {  // As in the simulator: one stream per event.
     RandomStream stream(5, Purpose::kOptionalNoise, 1, 2, i);
     draws.push_back(draw(distribution, stream));
   }
@@ -51,7 +51,7 @@ struct Case {
   Cdf cdf;
 };
 
-/// Distribution functions as textbooks give them.
+/// Cumulative distribution functions from textbooks.
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const auto& [a, b] : {std::pair{-1.0, 1.0}, {0.0, 6.28}, {10.0, 10.5}}) {
@@ -117,7 +117,8 @@ TEST_P(Draw, IsAFunctionOfItsStream) {
 
 TEST_P(Draw, IsIndependentFromStreamToStream) {
   const auto draws = draws_of(make_distribution(GetParam().name, GetParam().parameters), 20'000);
-  std::vector<double> before;  // By the distribution function, so that heavy tails do no harm.
+  std::vector<double> before;  // Mapped by the distribution function, so that heavy tails do no
+                               // harm.
   std::vector<double> after;
   for (std::size_t i = 1; i < draws.size(); ++i) {
     before.push_back(GetParam().cdf(draws[i - 1]));

@@ -39,7 +39,7 @@ std::vector<Signal> signals_of(const PaperModel& model, double distance_m) {
   return signals;
 }
 
-/// Phases less eq. (4) without noise, in [-π, π).
+/// Phases minus eq. (4) without noise, in [-π, π).
 std::vector<double> phase_residuals(const PaperModel& model, double distance_m) {
   const double expected =
       model.phase_offset_rad + 2.0 * kPi / (kSpeedOfLight / model.frequency_hz) * 2.0 * distance_m;
@@ -66,7 +66,7 @@ TEST(PaperPhase, GrowsByTwoPiEachHalfWavelength) {
 }
 
 TEST(PaperPhase, HasThePublishedSlope) {
-  // models.md, "Analytic figures for tests".
+  // 4π/λ [rad/m].
   for (const auto& [frequency, slope] : {std::pair{865.7e6, 36.287}, {915e6, 38.354}}) {
     const PaperModel model = noiseless(frequency);
     const double step = 0.001;
@@ -76,7 +76,7 @@ TEST(PaperPhase, HasThePublishedSlope) {
 }
 
 TEST(PaperPhase, StepsOfARealReaderAreThoseOfTheTable) {
-  // One step of 4096: 0.0423 mm at 865.7 MHz, 0.0400 mm at 915 MHz. Half a turn: 8.66 and 8.19 cm.
+  // One step of 4096: 0.0423 mm at 865.7 MHz, 0.0400 mm at 915 MHz. A phase of π: 8.66 and 8.19 cm.
   for (const auto& [frequency, step_m, half_turn_m] :
        {std::tuple{865.7e6, 0.0423e-3, 0.0866}, {915e6, 0.0400e-3, 0.0819}}) {
     const PaperModel model = noiseless(frequency);
@@ -110,7 +110,7 @@ RC_GTEST_PROP(PaperPhase, IsEquationFour, ()) {
 }
 
 TEST(PaperRssi, IsEquationFiveWithoutNoise) {
-  // Published example: gains 1 and 3 at 865.7 MHz; by hand from 40·log10(Gλ/(4πD)).
+  // Published example: gains 1 and 3 at 865.7 MHz; computed by hand from 40·log10(Gλ/(4πD)).
   for (const double gain : {1.0, 3.0}) {
     for (const double distance : {0.1, 0.5, 1.0, 1.0173, 2.0, 3.0, 5.0, 7.0, 14.05}) {
       PaperModel model = noiseless();
@@ -183,7 +183,7 @@ TEST_P(PaperSignalRssi, MeanFollowsEquationFive) {
   model.communication_gain = gain;
   model.rssi_noise = noise;
   const double amplitude = gain * kSpeedOfLight / 865.7e6 / (4.0 * kPi * distance);
-  // E and Var of round(40·log10|a+n|), n ~ N(0, noise²), summed over the levels it can take.
+  // E and Var of round(40·log10|a+n|), n ~ N(0, noise²), summed over its possible values.
   const auto below = [&](double size) {  // P(|a+n| < size)
     return statistics::normal_cdf((size - amplitude) / noise) -
            statistics::normal_cdf((-size - amplitude) / noise);
@@ -359,7 +359,7 @@ TEST(CheckPaperModel, NamesTheParameterThatIsBad) {
   }
   EXPECT_TRUE(contains(complaint([](auto& m) { m.phase_noise_rad = -0.1; }), "is -0.1"));
   EXPECT_TRUE(contains(complaint([](auto& m) { m.rssi_noise = -1e-9; }), "rssi_noise must"));
-  // So low that the wavelength is beyond the largest double.
+  // So low that the wavelength exceeds the largest double.
   EXPECT_TRUE(contains(complaint([](auto& m) { m.frequency_hz = 1e-305; }), "wavelength must"));
 }
 

@@ -16,7 +16,7 @@
 namespace tagfield {
 namespace {
 
-/// Links with words of noise and optional draws of any size.
+/// Links with noise words and optional draws of any magnitude.
 struct DrawnLinks {
   explicit DrawnLinks(const PaperModel& model, std::size_t count) {
     RandomStream stream(*rc::gen::arbitrary<std::uint64_t>(), Purpose::kReadNoise);
@@ -40,7 +40,7 @@ struct DrawnLinks {
   std::vector<double> optional;
 };
 
-// The equations one after the other, with the mathematical functions of the standard library.
+// The equations for one link at a time, with the mathematical functions of the standard library.
 RC_GTEST_PROP(PaperSignals, AreTheEquationsOfEachLink, ()) {
   const PaperModel model = any_model();
   const std::size_t count = *rc::gen::inRange<std::size_t>(1, 20);

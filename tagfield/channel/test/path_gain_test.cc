@@ -72,7 +72,7 @@ TEST(FreeSpace, IsFriisWithItsPhaseFrom30CentimetresTo15Metres) {
   const double lambda = wavelength(kFrequency);
   for (double d = 0.3; d <= 15.0; d += 0.0437) {
     for (const double tilt : {0.0, kPi / 2}) {
-      // Facing one another, a tilt of one is the other's mirrored.
+      // For antennas that face each other, the tilt of one is the mirror image of the other's.
       const AntennaPattern pattern = isotropic(tilt);
       const Complex h = traced(empty, pattern, at({0, 0, 1}), at({d, 0, 1}, 0.0), 0);
       const Complex friis = lambda / (4.0 * kPi * d) * std::polar(1.0, -kTwoPi * d / lambda);
@@ -98,11 +98,11 @@ TEST(TwoRay, OverAFloorIsTheClosedFormInBothPolarizations) {
       const Complex vertical = (eta * std::sin(psi) - root) / (eta * std::sin(psi) + root);
       const Complex horizontal = (std::sin(psi) - root) / (std::sin(psi) + root);
       const auto gain_of = [&](double tilt) {
-        // Both ends look along +x, so the tag is seen from behind; vertical fields there lie in the
+        // Both ends face along +x, so the tag is seen from behind; vertical fields there lie in the
         // plane of incidence like the antenna's.
         return traced(world, isotropic(tilt), at({0, 0, kAntenna}), at({d, 0, kTag}, kPi), 1);
       };
-      // Horizontal fields of ends that face one another point opposite ways.
+      // Horizontal fields of ends that face each other have opposite directions.
       expect_same_wave(gain_of(0.0), two_ray(d, kAntenna, kTag, vertical),
                        fmt::format("{} vertical {}", material, d));
       expect_same_wave(-gain_of(kPi / 2), two_ray(d, kAntenna, kTag, horizontal),
@@ -111,7 +111,7 @@ TEST(TwoRay, OverAFloorIsTheClosedFormInBothPolarizations) {
   }
 }
 
-/// A hall of six walls, seen from inside.
+/// A hall with six walls, seen from inside.
 RadioWorld hall(const Vector3d& size, const std::string& material) {
   Scene scene;
   scene.collisions.push_back({"hall", Box{size}, from_translation(0.5 * size)});
@@ -205,7 +205,7 @@ TEST(PathGain, LosesASlabsTransmissionWhereItCrosses) {
   const Complex behind = traced(world, isotropic(0.0), at({0, 0, 0}), at({4.0, 0.0, 0.0}), 0);
   const Complex free =
       carrier.lambda_m / (4.0 * kPi * 4.0) * std::polar(1.0, -carrier.wave_number * 4.0);
-  // A slab at normal incidence, by the matrices of its two faces and of the way between.
+  // A slab at normal incidence, by the matrices of its two faces and of the path between them.
   const double thickness = 0.1;
   const Complex n = std::sqrt(eta);
   const Complex q = carrier.wave_number * thickness * n;

@@ -67,7 +67,7 @@ TEST(RadioWorld, GuessesByWholeWords) {
   }
 }
 
-// However its words are written side by side, a name says the same.
+// The guess doesn't depend on how the words of a name are joined.
 RC_GTEST_PROP(RadioWorld, GuessesAlikeHoweverWordsAreJoined, ()) {
   const std::vector<std::string> plain = {"old", "north", "big", "left", "x"};
   std::vector<std::string> words =

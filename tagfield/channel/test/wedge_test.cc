@@ -13,13 +13,13 @@ namespace {
 using Complex = std::complex<double>;
 constexpr Complex kJ{0.0, 1.0};
 
-/// ∫_a^∞ e^{−jτ²} dτ by Simpson's rule along τ = a + t e^{−jπ/4}, where it just decays.
+/// ∫_a^∞ e^{−jτ²} dτ by Simpson's rule along τ = a + t e^{−jπ/4}, where the integrand just decays.
 Complex fresnel_tail(double a) {
   const auto f = [&](double t) {
     const Complex tau = a + t * std::polar(1.0, -0.25 * kPi);
     return std::exp(-kJ * tau * tau) * std::polar(1.0, -0.25 * kPi);
   };
-  // Below 0 the way would first grow: the whole integral less the other tail.
+  // For a < 0 the integrand would first grow: the whole integral minus the other tail.
   if (a < 0.0) return std::sqrt(kPi) * std::polar(1.0, -0.25 * kPi) - fresnel_tail(-a);
   constexpr int kSteps = 20000;
   const double h = 8.0 / kSteps;
@@ -38,9 +38,9 @@ TEST(Transition, IsItsIntegral) {
   EXPECT_LT(std::abs(transition(1e6) - 1.0), 1e-5);
 }
 
-/// A plane wave of amplitude 1 at the edge, from `antenna_rad`, on a perfectly conducting wedge:
-/// what geometrical optics and the four terms make of it at a distance. `soft` has the electric
-/// field along the edge.
+/// Unit plane wave at the edge, from `antenna_rad`, on a perfectly conducting wedge: the sum of
+/// geometrical optics and the four terms at a distance. With `soft`, the electric field is along
+/// the edge.
 Complex by_theory(double n, double antenna_rad, double tag_rad, double k, double rho, bool soft) {
   const double r = soft ? -1.0 : 1.0;
   const WedgeTerms terms = wedge_terms({n * kPi, antenna_rad, tag_rad, 1.0, k, rho});
@@ -96,7 +96,7 @@ Complex by_series(double n, double antenna, double tag, double kr, bool soft) {
 TEST(WedgeTerms, AreTheExactSeriesOfAWedgeToItsNextOrder) {
   for (const double n : {1.5, 1.75, 1.25}) {
     for (const double kr : {20.0, 60.0}) {
-      // What the theory leaves out falls with the distance's power of 3/2.
+      // The theory's error decreases with the distance to the power of 3/2.
       const double bound = 2.2 / std::pow(kr, 1.5);
       for (double antenna = 0.4; antenna < n * kPi - 0.3; antenna += 0.61) {
         for (double tag = 0.3; tag < n * kPi - 0.2; tag += 0.23) {
@@ -125,7 +125,8 @@ TEST(WedgeTerms, HaveHalfTheWaveOnTheShadowsBoundary) {
 }
 
 TEST(WedgeTerms, GoOnOverEachBoundary) {
-  // Beside a boundary the terms are computed otherwise than on it: their limits from both sides.
+  // Close to a boundary the terms are computed differently than on it: their limits from both
+  // sides.
   for (const double n : {1.5, 1.8, 2.0}) {
     WedgeGeometry wedge;
     wedge.exterior_rad = n * kPi;
@@ -146,7 +147,8 @@ TEST(WedgeTerms, GoOnOverEachBoundary) {
       const std::complex<double> mirror = mirror_at(side * 1.1e-6);
       EXPECT_LT(std::abs(mirror_at(side * 0.9e-6) - mirror), 2e-6 * std::abs(mirror)) << n;
     }
-    // The step from one side to the other is what optics drops there: as large on both.
+    // The step from one side to the other is the field that optics loses there: equal on both
+    // sides.
     EXPECT_LT(std::abs(shadow_at(0.9e-6) + shadow_at(-0.9e-6)), 1e-4 * std::abs(shadow_at(0.9e-6)))
         << n;
   }

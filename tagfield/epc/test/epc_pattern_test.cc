@@ -55,7 +55,7 @@ TEST(EpcPattern, AStarAloneMatchesAll) {
   EXPECT_FALSE(is_meant("urn:epc:pat:sgtin-96:*.*.*.*", "pallet 7"));
 }
 
-// The example of ALE 1.1, section 5.2.3: what X stands for is in the group's name.
+// The example of ALE 1.1, section 5.2.3: the group's name contains the value of X.
 TEST(EpcPattern, GroupsByWhatXStandsFor) {
   EXPECT_EQ(group("urn:epc:pat:sgtin-96:X.X.*.*", kSgtin), "urn:epc:pat:sgtin-96:3.0614141.*.*");
   EXPECT_EQ(group("urn:epc:pat:sgtin-96:*.X.X.[0-9999]", kSgtin),

@@ -59,8 +59,8 @@ TEST(Epc, OfAPureIdentityHasTheFilterOfAllOthers) {
   }
 }
 
-// The ends of the partition tables, counted by hand: a prefix of 12 digits leaves an SGLN no digit,
-// one of 6 leaves a GIAI 62 bits.
+// The ends of the partition tables, computed by hand: a prefix of 12 digits leaves no digit for an
+// SGLN, one of 6 leaves 62 bits for a GIAI.
 TEST(Epc, TakesTheLongestAndTheShortestPrefixes) {
   EXPECT_EQ(hex_of(epc_bytes(epc_from_uri("urn:epc:id:sgln:000000000001..0"))),
             "320000000000040000000000");
@@ -132,7 +132,7 @@ TEST(Epc, OfNoSchemeHasARawUri) {
   EXPECT_EQ(raw_uri("ABCD"), "urn:epc:raw:16.xABCD");
 }
 
-/// Any bits under a scheme's header are refused, or come back as they were through both URIs.
+/// Any bits under a scheme's header are either rejected or round-trip through both URIs.
 RC_GTEST_PROP(Epc, BitsComeBackThroughTheirUri, ()) {
   EpcBytes bytes = *rc::gen::container<EpcBytes>(rc::gen::arbitrary<std::uint8_t>());
   bytes[0] = *rc::gen::element<std::uint8_t>(0x2C, 0x2D, 0x2E, 0x2F, 0x30, 0x31, 0x32, 0x33, 0x34,
@@ -145,7 +145,7 @@ RC_GTEST_PROP(Epc, BitsComeBackThroughTheirUri, ()) {
   RC_ASSERT(epc_from_uri(id_uri(*epc)) == *epc);
 }
 
-/// Decimal digits of any SGTIN, by an arithmetic of their own.
+/// The decimal digits of any SGTIN, by independent arithmetic.
 RC_GTEST_PROP(Epc, AnSgtinHoldsItsThreeNumbers, ()) {
   const int digits = *rc::gen::inRange(6, 13);
   const auto text = [](int length) {

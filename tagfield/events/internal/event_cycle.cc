@@ -8,7 +8,7 @@ namespace {
 
 using Tags = std::map<std::string, EpcToMatch>;
 
-/// Those of `tags` that are not among `others`.
+/// The `tags` that are not among `others`.
 Tags without(const Tags& tags, const Tags& others) {
   Tags rest;
   for (const auto& tag : tags) {
@@ -81,7 +81,7 @@ void EventCycle::begin(Time at) {
   ++number_;
 }
 
-/// Where all that is to come is cycles with nothing to tell, those are counted, not gone through.
+/// If only cycles with nothing to report lie ahead, counts them without iterating over them.
 void EventCycle::skip_idle(Time horizon) {
   const bool tells_empty = std::any_of(spec_.reports.begin(), spec_.reports.end(),
                                        [](const ReportSpec& report) { return report.if_empty; });
@@ -144,14 +144,15 @@ std::optional<CycleReport> EventCycle::report(std::size_t index) {
 void EventCycle::end(Time at, CycleEnd why, EventListener& listener) {
   CycleReports all{spec_.name, number_, begin_, at, why, spec_.logical_readers, {}};
   for (std::size_t i = 0; i < spec_.reports.size(); ++i) {
-    // What the rest of a cycle would have read is not known to be missing.
+    // Tags that the rest of the cycle might have read are not known to be missing.
     if (why == CycleEnd::kCut && spec_.reports[i].set == ReportSet::kDeletions) continue;
     std::optional<CycleReport> one = report(i);
     if (one) all.reports.push_back(std::move(*one));
   }
   goes_on_ = false;
   tags_.clear();
-  // One that ended early waits for its turn, or where there are no turns begins at once.
+  // After an early end, the next cycle waits for its period, or, without a period, begins
+  // immediately.
   next_ = period() ? begin_ + *period() : at;
   if (!all.reports.empty()) listener.on_cycle(all);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One event cycle, again and again.
+/// A repeating event cycle.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace tagfield {
 
-/// Gathers tags and makes reports of them.
+/// Collects tags and makes reports of them.
 class EventCycle {
  public:
   explicit EventCycle(const CycleSpec& spec);
@@ -21,14 +21,13 @@ class EventCycle {
   [[nodiscard]] const CycleSpec& spec() const { return spec_; }
   /// The next time at which a cycle begins or ends; none before the first advance().
   [[nodiscard]] std::optional<Time> due() const;
-  /// Time is `now`: what is due by then begins and ends. The first call tells when there is
-  /// somebody to listen: a cycle that would have begun earlier begins then, with its place in the
-  /// order of cycles. Nothing will be taken before `horizon`, which is not before `now`.
+  /// Advances time to `now`: begins and ends the cycles that are due. The first call starts
+  /// listening: earlier cycles of a period are counted but not reported, and without a period none
+  /// begins before `now`. No tags will be taken before `horizon`, which is not before `now`.
   void advance(Time now, Time horizon, EventListener& listener);
-  /// A tag was read, advance() having been called with the read's stamp.
+  /// Takes a tag that was read; advance() must have been called with the read's timestamp.
   void take(Time stamp, const std::string& id, const EpcToMatch& tag);
-  /// There will be no more reads: the cycle that goes on is cut off at `now`, and
-  /// tells no deletions.
+  /// Ends the reads: cuts off the cycle in progress at `now`, without reporting deletions.
   void finish(Time now, EventListener& listener);
 
  private:
@@ -44,12 +43,12 @@ class EventCycle {
   CycleSpec spec_;
   bool is_first_ = true;
   bool goes_on_ = false;
-  std::optional<Time> next_;  ///< When the next begins, where none goes on.
+  std::optional<Time> next_;  ///< When the next cycle begins, if none is in progress.
   std::size_t number_ = 0;
   Time begin_;
-  Time newest_;  ///< When the last new tag came.
+  Time newest_;  ///< When the last new tag was read.
   Tags tags_;
-  std::vector<Tags> before_;  ///< Of each report, the tags of the cycle before.
+  std::vector<Tags> before_;  ///< For each report, the tags of the previous cycle.
 };
 
 }  // namespace tagfield

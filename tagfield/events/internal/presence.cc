@@ -19,7 +19,7 @@ void Presence::advance(Time now, EventListener& listener) {
       due_.emplace(over, id);
       continue;
     }
-    // What was only glimpsed was never there, so it doesn't go.
+    // A tag that was only glimpsed was never present, so it cannot be gone.
     if (tag->second.is_observed) tell(PresenceChange::kGone, over, tag->second, listener);
     tags_.erase(tag);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Which tags are before one logical reader.
+/// Which tags are present at one logical reader.
 #pragma once
 
 #include <deque>
@@ -17,7 +17,7 @@
 
 namespace tagfield {
 
-/// Makes presence events of reads. Filters nothing.
+/// Turns reads into presence events, without filtering.
 class Presence {
  public:
   Presence(std::string logical_reader, const PresenceRule& rule)
@@ -25,19 +25,20 @@ class Presence {
 
   /// The next time at which a tag may be gone; advance() must be called by then.
   [[nodiscard]] std::optional<Time> due() const;
-  /// Time is `now`: all that were not read for so long are gone.
+  /// Advances time to `now`: all tags not read for the rule's time are gone.
   void advance(Time now, EventListener& listener);
-  /// A read that is not earlier than any before, advance() having been called with its stamp.
+  /// Takes a read no earlier than the previous ones; advance() must have been called with its
+  /// timestamp.
   void take(const TagRead& read, EventListener& listener);
 
-  /// Tags that are observed, in no order.
+  /// Appends the observed tags, in no particular order.
   void append_present(std::vector<PresenceEvent>& all) const;
 
  private:
   struct Present {
     bool is_observed = false;
     std::deque<Time> recent;  ///< Reads within the rule's window, until it is observed.
-    PresenceEvent event;      ///< As it would be told.
+    PresenceEvent event;      ///< As it would be reported.
   };
   using Due = std::pair<Time, std::string>;
   void tell(PresenceChange change, Time stamp, Present& tag, EventListener& listener) const;
@@ -45,7 +46,7 @@ class Presence {
   std::string logical_reader_;
   PresenceRule rule_;
   std::unordered_map<std::string, Present> tags_;
-  /// One of each tag, not later than its time is over.
+  /// One entry per tag, due no later than its time is over.
   std::priority_queue<Due, std::vector<Due>, std::greater<>> due_;
 };
 

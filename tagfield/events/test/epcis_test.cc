@@ -87,7 +87,7 @@ TEST(EpcisEvents, AreMadeOfReportsWhereThatIsAskedFor) {
   CycleReports reports;
   reports.end = time_from_seconds(2.0);
   reports.logical_readers = {"dock", "belt"};
-  // The last two are one EPC.
+  // The last two are the same EPC.
   reports.reports = {
       {"all",
        ReportSet::kCurrent,
@@ -100,7 +100,7 @@ TEST(EpcisEvents, AreMadeOfReportsWhereThatIsAskedFor) {
                         R"("urn:epc:raw:96.x7461675F3100000000000000"])"),
             std::string::npos)
       << all[0];
-  EXPECT_EQ(all[0].find("readPoint"), std::string::npos);  // of two places
+  EXPECT_EQ(all[0].find("readPoint"), std::string::npos);  // of two locations
 }
 
 TEST(EpcisDocument, HoldsAllEvents) {

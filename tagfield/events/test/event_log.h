@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Events as lines that tests can be read by.
+/// Events as lines, for readable tests.
 #pragma once
 
 #include <fmt/format.h>

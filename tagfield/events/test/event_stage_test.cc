@@ -39,7 +39,7 @@ TEST(EventStage, ObservesAfterSoManyReadsAndMissesAfterATimeWithoutAny) {
                           {read_of(0.5, "t"), read_of(0.9, "t"), read_of(1.6, "t"),
                            read_of(1.8, "t"), read_of(3.0, "t")},
                           10.0);
-  // At 1.6 the read of 0.5 is too long ago.
+  // At 1.6 the read at 0.5 is too long ago.
   EXPECT_EQ(log->presence, (Lines{"0.5 glimpsed t at r", "1.8 observed t at r", "5 gone t at r"}));
   const PresenceEvent& gone = log->events.back();
   EXPECT_EQ(gone.first_read, time_from_seconds(0.5));
@@ -65,7 +65,7 @@ TEST(EventStage, KnowsWhoIsThere) {
 TEST(EventStage, WhatWasOnlyGlimpsedIsForgottenInSilence) {
   const auto log = log_of(presence_spec(2, seconds(1), seconds(1)),
                           {read_of(1.0, "t"), read_of(2.0, "t"), read_of(2.9, "t")}, 3.0);
-  // At 2.0 the second without reads is just over.
+  // At 2.0, a second without reads is just over.
   EXPECT_EQ(log->presence,
             (Lines{"1 glimpsed t at r", "2 glimpsed t at r", "2.9 observed t at r"}));
 }
@@ -160,8 +160,7 @@ TEST(EventStage, TellsOnlyWhatChanges) {
 }
 
 TEST(EventStage, FiltersAndGroupsByPattern) {
-  const std::string first =
-      "3074257BF7194E4000001A85";  // Of SGTIN 0614141.812345, as the standard has it.
+  const std::string first = "3074257BF7194E4000001A85";  // SGTIN 0614141.812345, from the standard.
   const std::string second = "urn:epc:tag:sgtin-96:1.0614141.100001.7";
   CycleSpec cycle = door();
   cycle.reports = {report(ReportSet::kCurrent)};
@@ -186,7 +185,7 @@ TEST(EventStage, CountsIdleCyclesWithoutGoingThroughThem) {
   CycleSpec cycle = door();
   cycle.duration = milliseconds(1);
   cycle.reports = {report(ReportSet::kAdditions), report(ReportSet::kDeletions)};
-  // 1.7e12 cycles, as stamps of Unix time have them.
+  // 1.7e12 cycles, as with Unix timestamps.
   const auto log =
       log_of(with(cycle), {read_of(0.0002, "x"), read_of(1'700'000'000.5002, "y")}, 1'700'000'001);
   ASSERT_EQ(log->cycles.size(), 4U);
@@ -212,7 +211,7 @@ TEST(EventStage, KnowsTimeByUpdatesWhereNothingIsRead) {
   }
   EXPECT_EQ(log->presence.size(), 2U);
   stage.on_update(antenna("a"), time_from_seconds(2.0));
-  EXPECT_EQ(log->presence.size(), 2U);  // b's reads of after 1.01 may still come
+  EXPECT_EQ(log->presence.size(), 2U);  // b's reads after 1.01 may still follow
   stage.on_antenna_removed("b");
   stage.on_update(antenna("a"), time_from_seconds(2.5));
   EXPECT_EQ(log->presence.back(), "1.1 gone t at r");
@@ -229,7 +228,7 @@ TEST(EventStage, ForgetsAllWhereTimeGoesBack) {
                                   "0.5 observed t at r", "1.5 gone t at r"}));
 }
 
-/// Reads of four tags at whole tenths of seconds, by stamp.
+/// Reads of four tags at multiples of 0.1 s, sorted by timestamp.
 std::vector<TagRead> random_reads() {
   std::vector<TagRead> reads;
   for (int i = *rc::gen::inRange(0, 60); i > 0; --i) {
@@ -241,7 +240,7 @@ std::vector<TagRead> random_reads() {
   return reads;
 }
 
-/// Of one tag's stamps, by looking at each run of reads as a whole.
+/// Reference: presence events from one tag's timestamps, computed for each run of reads as a whole.
 Lines naive_presence(const std::string& tag, const std::vector<Time>& stamps,
                      const PresenceRule& rule, Time end) {
   Lines lines;

@@ -33,7 +33,7 @@ constexpr const char* kWhole = R"(events:
 
 std::string write(const std::string& text) { return folder_of_test().with("events.yaml", text); }
 
-/// The complaint with `from` replaced by `to`, without the folder.
+/// The error message with `from` replaced by `to`, without the folder.
 std::string complaint_of(const std::string& from, const std::string& to) {
   std::string text = kWhole;
   EXPECT_NE(text.find(from), std::string::npos) << from;

@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-/// A row under way.
+/// A row under construction.
 class Row {
  public:
   Row& text(const std::string& field) { return put(csv_field(field)); }

@@ -21,7 +21,7 @@ constexpr double kBottom = 48.0;
 
 double millimetres(double metres) { return std::max(1e3 * metres, kLeast_mm); }
 
-/// A logarithmic axis over these values; from 1 to 10 where there is none.
+/// A logarithmic axis over these values; from 1 to 10 if there are none.
 Scale scale_over(const std::vector<double>& values) {
   if (values.empty()) return logarithmic_scale(1.0, 10.0);
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -44,7 +44,7 @@ std::size_t count_tags(const BenchEntry& entry) {
   return count;
 }
 
-/// Share of the `tags` that were tried up to each error, as steps.
+/// Cumulative share of the `tags` over the error, as a step function.
 std::vector<Place> curve_of(const Axes& axes, const std::vector<double>& errors_m,
                             std::size_t tags) {
   std::vector<Place> places = {{place_on(axes.x, millimetres(errors_m.front())), axes.y.from}};
@@ -68,7 +68,7 @@ std::vector<std::string> names_of(const std::vector<const BenchEntry*>& entries)
   return names;
 }
 
-/// A group for each condition that has any marks.
+/// One group per condition that has any marks.
 std::vector<MarkGroup> groups_of(
     const Bench& bench,
     const std::function<std::optional<RowMark>(const BenchEntry& entry)>& mark_of) {

@@ -82,7 +82,7 @@ std::string nees_cell(const std::optional<NeesSummary>& nees) {
                      kMarks[static_cast<int>(nees->consistency)]);
 }
 
-/// Which columns there are.
+/// Which optional columns are shown.
 struct Columns {
   bool height = false;
   bool aligned = false;
@@ -152,7 +152,7 @@ std::string title_of(const Bench& bench, const BenchCondition& condition) {
       escaped(winner_words(bench, condition)));
 }
 
-/// All numbers, folded: the first condition is open.
+/// All numbers, collapsed except for the first condition.
 std::string tables(const Bench& bench, Timing timing) {
   const Columns columns = columns_of(bench, timing);
   std::string html;
@@ -170,7 +170,7 @@ std::string tables(const Bench& bench, Timing timing) {
   return html;
 }
 
-/// What the bounds leave out, by condition.
+/// What the bounds ignore, by condition.
 std::string bound_notes(const Bench& bench) {
   std::string items;
   for (const BenchCondition& condition : bench.conditions) {

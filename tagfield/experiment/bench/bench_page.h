@@ -12,7 +12,7 @@
 
 namespace tagfield {
 
-/// The page, self-contained as report.html. `figures` are those of bench_figures().
+/// The page, self-contained like report.html. `figures` are those of bench_figures().
 std::string bench_page(const Bench& bench, const std::vector<Figure>& figures, Timing timing);
 
 }  // namespace tagfield

@@ -20,7 +20,7 @@ std::size_t name_width(const Bench& bench) {
   return width;
 }
 
-/// Counted by characters, not by bytes.
+/// Width in characters, not bytes.
 std::string padded(const std::string& name, std::size_t width) {
   const std::string text = shortened(name, kMostTextName);
   return text + std::string(width - length_of(text), ' ');
@@ -39,7 +39,7 @@ std::string expected_text(const std::optional<double>& ratio) {
   return ratio ? fmt::format("{:.2f}", *ratio) : "-";
 }
 
-/// For each degree of freedom, so that 1 is right.
+/// NEES per degree of freedom, so that 1 is right.
 std::string nees_text(const std::optional<NeesSummary>& nees) {
   if (!nees) return "-";
   constexpr const char* kMarks[] = {"", " (cautious)", " (bold)"};

@@ -19,14 +19,14 @@
 namespace tagfield {
 namespace {
 
-/// Runs `work`; what it complains of gets the place in the suite before it.
+/// Runs `work` and prefixes its errors with the location in the suite.
 template <typename Work>
 auto at_place(const Location& location, const std::string& what, const Work& work) {
   try {
     return work();
   } catch (const Error& error) {
     std::string said = error.what();
-    // Overrides call themselves by the option of the command line, which was not used here.
+    // Errors about overrides name the command-line option, which was not used here.
     if (said.rfind("--set", 0) == 0) said.erase(0, 2);
     fail(location, fmt::format("{}: {}", what, said));
   }
@@ -47,7 +47,7 @@ KnownBeforehand known_in(const Scenario& scenario, const Condition& condition) {
 
 constexpr const char* kOfLocalization = "localization.";
 
-/// The condition's settings. Those of any method that runs in it have their place there.
+/// The condition's settings. Settings of any method that runs in it are allowed.
 std::vector<Override> overrides_of(const Suite& suite, const Condition& condition) {
   std::vector<std::string> names;
   for (const SuiteMethod& method : suite.methods) {
@@ -58,7 +58,7 @@ std::vector<Override> overrides_of(const Suite& suite, const Condition& conditio
   return overrides;
 }
 
-/// Throws Error on a setting of other methods.
+/// Throws Error on a setting that belongs to other methods.
 void refuse_others(const SuiteMethod& method, const std::vector<Method>& methods) {
   for (const auto& [path, value] : method.localization) {
     const std::string key = path.substr(std::string(kOfLocalization).size());
@@ -68,8 +68,8 @@ void refuse_others(const SuiteMethod& method, const std::vector<Method>& methods
   }
 }
 
-/// Keys and values of methods' settings, without the scenario's path before them. Throws Error on
-/// what is no setting of localization.
+/// Keys and values of methods' settings, without the scenario's path prefix. Throws Error on
+/// anything that is not a setting of localization.
 MethodSettings settings_in(const std::vector<Override>& overrides) {
   MethodSettings settings;
   for (const auto& [path, value] : overrides) {
@@ -86,7 +86,7 @@ ScenarioWithWorld scenario_in(const Condition& condition, const std::vector<Over
                                   methods);
 }
 
-/// What localization is told there. The world has no part in that.
+/// The settings of localization, which don't depend on the world.
 LocalizationSpec localization_in(const Condition& condition, const std::vector<Override>& overrides,
                                  const std::vector<Method>& methods) {
   Diagnostics unheard;
@@ -96,7 +96,7 @@ LocalizationSpec localization_in(const Condition& condition, const std::vector<O
   return load_scenario(condition.scenario, overrides, unheard, methods).localization;
 }
 
-/// There is no scenario to say what else localization could be told.
+/// Without a scenario, only the methods' settings are available.
 PreparedMethod prepare_for_recording(const SuiteMethod& method, const Condition& condition,
                                      const std::vector<Method>& methods) {
   PreparedMethod ready;
@@ -169,7 +169,7 @@ void load(const Suite& suite, const std::vector<Method>& methods, PreparedCondit
   ScenarioWithWorld loaded =
       scenario_in(condition, overrides_of(suite, condition), methods, diagnostics);
   prepared.scenario = std::move(loaded.scenario);
-  prepared.scenario.real_time = 0.0;  // Nobody watches.
+  prepared.scenario.real_time = 0.0;  // Run at full speed.
   prepared.known = known_in(prepared.scenario, condition);
   if (prepared.scenario.pose.source == PoseSource::kSlam) {
     prepared.world = navigation_world(prepared.scenario, loaded.scene, diagnostics);
@@ -183,7 +183,7 @@ void load(const Suite& suite, const std::vector<Method>& methods, PreparedCondit
   if (condition.fault) prepared.no_bound = "the reads are faulty";
 }
 
-/// Throws Error on a setting that none of the condition's methods takes.
+/// Throws Error on a setting that none of the condition's methods has.
 void refuse_unused_settings(const Suite& suite, const std::vector<Method>& methods,
                             const Condition& condition) {
   std::vector<Method> used;
@@ -233,7 +233,7 @@ PreparedCondition prepare_condition(const Suite& suite, const Condition& conditi
   return prepared;
 }
 
-/// Before any world is read, as that takes its time.
+/// Called before any world is loaded, as that takes time.
 void require_known_methods(const Suite& suite, const std::vector<Method>& methods) {
   for (const SuiteMethod& method : suite.methods) {
     at_place(method.location, fmt::format("method '{}'", method.name),

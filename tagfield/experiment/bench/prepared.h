@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A suite made ready to run: scenarios and worlds read, methods found, everything checked.
+/// A suite prepared for running: scenarios and worlds loaded, methods looked up, everything
+/// checked.
 #pragma once
 
 #include <functional>
@@ -17,33 +18,33 @@
 
 namespace tagfield {
 
-/// What a recording holds.
+/// The contents of a recording.
 struct RecordedReads {
   std::vector<TagRead> reads;
   std::vector<AntennaPose> poses;  ///< Of the antennas.
 };
 
-/// Reads a recording's tables, in whatever form they are. Throws Error.
+/// Reads a recording's tables, whatever their format. Throws Error.
 using ReadRecording = std::function<RecordedReads(const SuiteRecording&)>;
 
 struct PreparedMethod {
   std::string name;  ///< In the suite.
   Method method;
-  /// What it knows beforehand, where that is not what the condition says.
+  /// Its prior knowledge, if that differs from the condition's.
   std::optional<KnownBeforehand> known;
 };
 
 struct PreparedCondition {
   Condition condition;
-  Scenario scenario;                     ///< Empty of a recording.
-  std::optional<Recording> recording;    ///< With the tags' places.
-  std::optional<NavigationWorld> world;  ///< For robots that find their way by themselves.
-  KnownBeforehand known;                 ///< Of all methods that don't know something else.
+  Scenario scenario;                     ///< Empty for a recording.
+  std::optional<Recording> recording;    ///< With the tags' positions.
+  std::optional<NavigationWorld> world;  ///< For robots that navigate by themselves.
+  KnownBeforehand known;                 ///< For all methods without prior knowledge of their own.
   std::vector<PreparedMethod> methods;
   std::uint64_t runs = 1;
   /// Standard deviation by antenna, for the bound.
   std::map<std::string, double> phase_noise_rad;
-  std::string no_bound;  ///< Why there is no bound; "" where there is one.
+  std::string no_bound;  ///< Why there is no bound; "" if there is one.
 };
 
 struct PreparedSuite {
@@ -51,13 +52,13 @@ struct PreparedSuite {
   std::vector<PreparedCondition> conditions;
 };
 
-/// Reads the scenarios and their worlds, and recordings by `read`. `methods`: those that the suite
-/// may name. Conditions of recordings that are not there are left out, with a warning. Throws
-/// Error, which begins with the place in the suite, on whatever could not be run.
+/// Loads the scenarios and their worlds, and recordings with `read`. `methods`: those that the
+/// suite may name. Conditions whose recordings don't exist are left out, with a warning. Throws
+/// Error, which begins with the location in the suite, on anything that could not be run.
 PreparedSuite prepare(const Suite& suite, const std::vector<Method>& methods,
                       Diagnostics& diagnostics, const ReadRecording& read = {});
 
-/// The model that the scenario's pose error really has; none where nobody knows one.
+/// The true model of the scenario's pose error; none if it is unknown.
 std::optional<PoseErrorModel> true_pose_error(const Scenario& scenario);
 
 }  // namespace tagfield

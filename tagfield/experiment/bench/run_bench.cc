@@ -19,7 +19,7 @@ namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
-/// One condition with one seed, and what came of it.
+/// One condition with one seed, and its results.
 struct Job {
   const PreparedCondition* condition = nullptr;
   RunKey key;
@@ -27,7 +27,8 @@ struct Job {
   Diagnostics warnings;
 };
 
-/// Of a condition in the suite; those of recordings that are not there are not prepared.
+/// Index of a condition in the suite; not that among the prepared ones, which omit missing
+/// recordings.
 std::uint64_t place_of(const Suite& suite, const std::string& condition) {
   const auto found = std::find_if(suite.conditions.begin(), suite.conditions.end(),
                                   [&](const Condition& of) { return of.name == condition; });
@@ -45,7 +46,7 @@ std::vector<Job> jobs_of(const PreparedSuite& prepared) {
   return jobs;
 }
 
-/// Takes what the job came to from the store, where it is there.
+/// Takes the job's results from the store, if it has them.
 bool was_done(Job& job, const RunStore* store) {
   const std::string* const kept = store == nullptr ? nullptr : store->find(job.key);
   if (kept == nullptr) return false;
@@ -69,7 +70,7 @@ void do_job(Job& job, const RunControl& control, RunStore* store) {
   store->add(job.key, to_json_line({*job.runs, job.warnings.warnings()}));
 }
 
-/// Counts the jobs done.
+/// Counts the finished jobs.
 class Progress {
  public:
   Progress(const RunControl& control, std::size_t count) : control_(control), count_(count) {}
@@ -137,7 +138,7 @@ void add_warnings(const Job& job, std::uint64_t first_seed, Diagnostics& diagnos
   }
 }
 
-/// Deals the runs of the jobs out to their entries.
+/// Distributes the runs of the jobs to their entries.
 void collect(const PreparedSuite& prepared, std::vector<Job>& jobs, Bench& bench) {
   Diagnostics diagnostics;
   std::size_t first_entry = 0;

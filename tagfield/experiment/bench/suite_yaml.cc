@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kMostSeeds = 1'000'000;
-constexpr double kMostBursts = 1000.0;  // At a time.
+constexpr double kMostBursts = 1000.0;  // Simultaneously active.
 constexpr double kLeastEvery_s = 1e-3;
 constexpr double kMostLate_s = 3600.0;
 
@@ -92,7 +92,7 @@ ReadLoss loss_of(YamlMap map) {
   return loss;
 }
 
-/// Throws Error on `false`, which would be no fault at all.
+/// Whether the fault is set. Throws Error on `false`, which would be no fault at all.
 bool is_told(YamlMap& map, const std::string& key) {
   if (!map.has(key)) return false;
   if (!map.at(key).boolean()) map.at(key).fail("is false: leave it out");
@@ -134,7 +134,7 @@ Faults faults_in(YamlMap map) {
   return faults;
 }
 
-/// A word, for a fault that needs no more, or a mapping.
+/// A single word, for a fault without parameters, or a mapping.
 Faults faults_of(const YamlValue& value) {
   if (!value.node().IsScalar()) return faults_in(YamlMap(value));
   constexpr bool Faults::*kFaults[] = {&Faults::random_phases,    &Faults::constant_phases,
@@ -146,7 +146,7 @@ Faults faults_of(const YamlValue& value) {
   return faults;
 }
 
-/// A path, or the name of a format that comes with the project.
+/// A path, or the name of a shipped format.
 std::string format_of(const YamlValue& value) {
   const fs::path format(value.text());
   const bool is_name = !format.has_extension() && !format.has_parent_path();
@@ -174,7 +174,7 @@ SuiteRecording recording_of(YamlMap map) {
   return recording;
 }
 
-/// Throws Error on keys that a recording leaves without any effect.
+/// Throws Error on keys that have no effect on a recording.
 void refuse_beside_recording(YamlMap& map) {
   for (const char* key : {"scenario", "set", "seeds", "phase_noise_rad"}) {
     if (map.has(key)) map.at(key).fail("has no effect on a recording");
@@ -190,15 +190,15 @@ PoseErrorModel model_of(YamlMap map) {
   return model;
 }
 
-ToldPoseError believed_of(const YamlValue& value) {
+StatedPoseError believed_of(const YamlValue& value) {
   if (value.node().IsMap()) return model_of(YamlMap(value));
   if (choice(value, {"unknown", "exact"}) == 0) return UnknownPoseError{};
   return PoseErrorModel{};
 }
 
-/// What holds for all conditions that don't say it themselves.
+/// Defaults for all conditions.
 struct Common {
-  bool on_disk = true;  ///< Whether scenarios must be there.
+  bool on_disk = true;  ///< Whether scenarios must exist.
   std::string scenario;
   std::optional<double> phase_noise_rad;
 };
@@ -279,7 +279,7 @@ void check(const Suite& suite) {
   }
 }
 
-/// A sweep can do with a single condition, which then is all that varies.
+/// The only condition of a sweep without `conditions`.
 Condition only_condition(const YamlMap& map, const Common& common) {
   if (common.scenario.empty()) map.self().fail("has no 'scenario' and no 'conditions'");
   Condition condition;

@@ -16,8 +16,8 @@
 namespace tagfield {
 namespace {
 
-/// What a method knows beforehand, the problem made of that, and the bounds of it, which are
-/// computed when a method is judged by them.
+/// The prior knowledge of a method, the problem built from it, and its bounds, which are computed
+/// on demand.
 class Given {
  public:
   Given(const PreparedCondition& condition, const Recording& recording,
@@ -61,12 +61,12 @@ class Given {
   std::optional<Bounds> joint_;
 };
 
-/// The joint bound for those that locate all tags together.
+/// The joint bound for methods that locate all tags jointly.
 BoundKind bound_of(const std::string& method) {
   return method == "joint" ? BoundKind::kJoint : BoundKind::kSingle;
 }
 
-/// Tags whose places nobody knows say nothing of a recording.
+/// Tags of a recording without known positions can't be judged.
 void drop_strangers(std::vector<TagRecord>& tags) {
   std::erase_if(tags, [](const TagRecord& tag) { return !tag.truth; });
 }
@@ -95,13 +95,13 @@ MethodRun run_method(const PreparedMethod& method, const PreparedCondition& cond
   return run;
 }
 
-/// What a run leaves to locate tags from.
+/// The data of a run to locate tags from.
 struct Recorded {
   Recording recording;
   std::optional<MapError> map_error;  ///< Of the map that the robot made.
 };
 
-/// None where `control.stop` was set before it was over.
+/// None if `control.stop` was set before the end of the run.
 std::optional<Recorded> simulated(const PreparedCondition& condition, std::uint64_t seed,
                                   const RunControl& control) {
   const NavigationWorld* const world = condition.world ? &*condition.world : nullptr;
@@ -117,7 +117,7 @@ std::optional<Recorded> recorded(const PreparedCondition& condition, std::uint64
   return Recorded{*condition.recording, std::nullopt};
 }
 
-/// With what the run told of its map.
+/// `known` with the error of the run's map.
 KnownBeforehand with_map(KnownBeforehand known, const std::optional<MapError>& map_error) {
   known.map_error = map_error;
   return known;

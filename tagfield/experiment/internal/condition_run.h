@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One condition with one seed: simulated once, located by every method, judged.
+/// One condition with one seed: simulated once, localized by every method, judged.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace tagfield {
 
-/// A MethodRun for each method of the condition, in their order; none where `control.stop` was set
+/// A MethodRun for each method of the condition, in their order; none if `control.stop` was set
 /// before all were done.
 std::optional<std::vector<MethodRun>> run_condition(const PreparedCondition& condition,
                                                     std::uint64_t seed, const RunControl& control,

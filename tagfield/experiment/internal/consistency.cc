@@ -10,14 +10,14 @@
 namespace tagfield {
 namespace {
 
-/// Of two tags, that of the first's first `rows` components with the second's first `columns`.
+/// Covariance of the first tag's first `rows` components with the second's first `columns`.
 Eigen::MatrixXd block_of(const Bounds& bounds, std::size_t i, int rows, std::size_t j,
                          int columns) {
   return bounds.covariance.block(3 * static_cast<Eigen::Index>(i), 3 * static_cast<Eigen::Index>(j),
                                  rows, columns);
 }
 
-/// An item and its place in the bounds.
+/// An item and its index in the bounds.
 struct Bounded {
   std::size_t place = 0;
   int dof = 2;

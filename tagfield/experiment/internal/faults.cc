@@ -14,7 +14,7 @@ namespace {
 constexpr double kWeakest_dbm = -75.0;
 constexpr double kStrongest_dbm = -35.0;
 
-/// The draws for one read: first of its phase, then of its RSSI.
+/// Random values for one read: first its phase, then its RSSI.
 void draw_anew(const Faults& faults, std::uint64_t seed, TagRead& read) {
   const auto stamp = static_cast<std::uint64_t>(read.stamp.time_since_epoch().count());
   RandomStream stream(seed, Purpose::kFault, stream_key(read.antenna), stream_key(read.tag), stamp);
@@ -40,7 +40,8 @@ void exchange(const std::vector<std::string>& names, std::string& antenna) {
   }
 }
 
-/// Every other read of each tag gets the ID of the next one, and of the last the first one's.
+/// Every other read of each tag gets the ID of the next tag, those of the last tag that of the
+/// first.
 void mix_tags(std::vector<TagRead>& reads) {
   std::map<std::string, std::size_t> counts;
   for (const TagRead& read : reads) counts[read.tag] = 0;
@@ -70,7 +71,7 @@ std::vector<std::string> fault_names(const Faults& faults) {
   return names;
 }
 
-bool has_true_place(const Faults& faults, const std::string& method) {
+bool has_true_position(const Faults& faults, const std::string& method) {
   if (faults.duplicate_epcs || faults.poses_of_another_run) return false;
   const bool no_phases = faults.random_phases || faults.constant_phases;
   if (no_phases && faults.random_rssi) return false;

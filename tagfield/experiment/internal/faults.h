@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads and poses with something wrong about them, so that what methods claim of them can be
-/// judged.
+/// Faults injected into reads and poses, to judge what methods then claim.
 #pragma once
 
 #include <cstdint>
@@ -13,21 +12,21 @@
 
 namespace tagfield {
 
-/// The faults by the keys that a suite has for them.
+/// The faults, named by their keys in a suite.
 std::vector<std::string> fault_names(const Faults& faults);
 
-/// Whether some place can be the right one for a method of this name (of "auto" the one that it
-/// chose): not where the reads are of two tags or the poses of another run, nor where what the
-/// method goes by is random or constant.
-bool has_true_place(const Faults& faults, const std::string& method);
+/// Whether a method of this name (for "auto" the one that it chose) can find a true position at
+/// all: not if the reads are of two tags or the poses of another run, nor if the data that the
+/// method uses is random or constant.
+bool has_true_position(const Faults& faults, const std::string& method);
 
-/// Puts the faults into the reads and believed poses. What is drawn for a read depends on the seed,
-/// its antenna, tag and stamp alone.
+/// Injects the faults into the reads and believed poses. Random values for a read depend only on
+/// the seed and its antenna, tag and timestamp.
 void add_faults(const Faults& faults, std::uint64_t seed, Recording& recording);
 
-/// The poses of a run that went another way: the horizontal places p, seen from their mean m,
-/// become m + ((0.8, 0.1), (0.1, −0.5)) (p − m). That mirrors, shrinks and shears, so that no
-/// rotation and shift brings a way onto itself. Heights and directions stay.
+/// Poses of a run along another path: horizontal positions p with the mean m become m + ((0.8,
+/// 0.1), (0.1, −0.5)) (p − m). That mirrors, shrinks and shears, so that no rigid motion maps a
+/// path onto the result. Heights and orientations are kept.
 std::vector<AntennaPose> poses_of_another_run(std::vector<AntennaPose> poses);
 
 }  // namespace tagfield

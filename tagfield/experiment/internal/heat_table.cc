@@ -19,13 +19,13 @@ namespace {
 
 constexpr std::size_t kMostHeatName = 24;
 
-/// A step of the scale, with the ink that stands out from it.
+/// A step of the scale, with a contrasting text colour.
 struct HeatColor {
   const char* paper;
   const char* ink;
 };
 
-/// Even steps of lightness, from small errors to large ones; told apart without red and green.
+/// Even steps of lightness, from small errors to large ones; distinguishable without red and green.
 constexpr std::array<HeatColor, 9> kHeat = {{{"#fde725", "#111111"},
                                              {"#addc30", "#111111"},
                                              {"#5ec962", "#111111"},
@@ -36,7 +36,7 @@ constexpr std::array<HeatColor, 9> kHeat = {{{"#fde725", "#111111"},
                                              {"#443983", "#ffffff"},
                                              {"#440154", "#ffffff"}}};
 
-/// Mean errors of the whole bench, in equal steps of their logarithm.
+/// Range of the mean errors of the whole bench, divided into equal logarithmic steps.
 struct HeatScale {
   double low_m = 0.0;
   double high_m = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The comparison at a glance: conditions by methods, and who wins.
+/// The comparison at a glance: conditions by methods, and the winners.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace tagfield {
 
-/// A row a condition, a column a method, coloured by the mean error, with the winner of each
-/// condition; and the words that go with it. HTML.
+/// One row per condition, one column per method, coloured by the mean error, with the winner of
+/// each condition; and the accompanying text. HTML.
 std::string heat_table(const Bench& bench);
 
-/// "ml, 3.1 mm; not significantly different from it: joint, auto" as plain text; "none: …" where no
-/// tag was located right.
+/// "ml, 3.1 mm; not significantly different from it: joint, auto" as plain text; "none: …" if no
+/// tag was located correctly.
 std::string winner_words(const Bench& bench, const BenchCondition& condition);
 
 }  // namespace tagfield

@@ -11,7 +11,7 @@
 namespace tagfield {
 namespace {
 
-/// Keeps the worst of all seeds' maps and distances.
+/// Keeps the worst values of maps and distances over all seeds.
 void add_map(const NavigationRun& run, const NavigationWorld& world, bool first,
              NavigationSummary& summary) {
   const MapComparison map = compare_maps(run.map, world.true_map);
@@ -31,7 +31,7 @@ void add_map(const NavigationRun& run, const NavigationWorld& world, bool first,
   summary.mapping_s = run.survey->simulated_s;
 }
 
-/// Why a goal was not reached; "" where it was.
+/// Why a goal was not reached; "" if it was.
 std::string fault_of(const GoalOutcome& goal) {
   if (goal.state != DriveState::kReached) return goal.reason;
   const double off_m = (position_of(goal.truth_W) - position_of(goal.goal_M)).norm();
@@ -52,7 +52,7 @@ void add_goals(const SeedRun& run, NavigationSummary& summary) {
   }
 }
 
-std::optional<FindingSummary> findings_of(const std::vector<SeedRun>& runs, PlaceLoss why) {
+std::optional<FindingSummary> findings_of(const std::vector<SeedRun>& runs, PositionLoss why) {
   FindingSummary summary;
   std::vector<double> seconds;
   std::vector<double> ways_m;
@@ -93,9 +93,9 @@ NavigationSummary navigation_summary(const std::vector<SeedRun>& runs,
   }
   summary.position_error_m = statistics(positions);
   summary.yaw_error_rad = statistics(yaws);
-  summary.unknown_starts = findings_of(runs, PlaceLoss::kStart);
-  summary.carried = findings_of(runs, PlaceLoss::kCarried);
-  summary.lost = findings_of(runs, PlaceLoss::kLost);
+  summary.unknown_starts = findings_of(runs, PositionLoss::kStart);
+  summary.carried = findings_of(runs, PositionLoss::kCarried);
+  summary.lost = findings_of(runs, PositionLoss::kLost);
   return summary;
 }
 

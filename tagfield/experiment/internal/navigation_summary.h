@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How robots found their way, in numbers over all seeds.
+/// Statistics of robot navigation over all seeds.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace tagfield {
 
-/// A goal counts as reached where the robot says so and stands within this of it in truth [m].
+/// A goal counts as reached if the robot says so and is truly within this distance of it [m].
 inline constexpr double kTrulyThere_m = 0.2;
 
-/// All runs have their `navigation`.
+/// All runs must have their `navigation`.
 NavigationSummary navigation_summary(const std::vector<SeedRun>& runs,
                                      const NavigationWorld& world);
 

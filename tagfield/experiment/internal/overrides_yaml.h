@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Settings of a scenario that stand in a suite.
+/// Settings of a scenario in a suite.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ namespace tagfield {
 /// A value as YAML text on one line.
 std::string yaml_line_of(const YAML::Node& node);
 
-/// The keys of a mapping, each with `prefix` before it, and what stands there. Throws Error
-/// "FILE:LINE: …" where that is nothing.
+/// The keys of a mapping, each with `prefix` before it, and their values. Throws Error "FILE:LINE:
+/// …" on an empty value.
 std::vector<Override> overrides_in(const YamlValue& value, const std::string& prefix);
 
 }  // namespace tagfield

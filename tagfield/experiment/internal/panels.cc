@@ -11,8 +11,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kPanelLeft = 50.0;   // For the labels of the scale upwards.
-constexpr double kPanelRight = 20.0;  // For half of the last label below.
+constexpr double kPanelLeft = 50.0;   // For the labels of the vertical scale.
+constexpr double kPanelRight = 20.0;  // For half of the last label of the horizontal scale.
 constexpr double kPanelHead = 30.0;
 constexpr double kPanelFoot = 32.0;
 constexpr double kCharacterWidth = 8.0;

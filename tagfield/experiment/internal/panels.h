@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Small multiples: panels of equal size with a common scale upwards.
+/// Small multiples: panels of equal size with a common vertical scale.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ namespace tagfield {
 
 /// A value in a panel.
 struct PanelMark {
-  std::size_t series = 0;  ///< Whose colour it has.
+  std::size_t series = 0;  ///< Determines the colour.
   double x = 0.0;
   double y = 0.0;
-  double low = 0.0;  ///< A bar is drawn where `high` is greater.
+  double low = 0.0;  ///< A bar is drawn if `high` is greater.
   double high = 0.0;
   std::string tooltip;
 };
@@ -26,22 +26,23 @@ struct Panel {
   std::vector<PanelMark> marks;  ///< By series, then by x.
 };
 
-/// What all panels share.
+/// The format of panels.
 struct PanelForm {
   std::string x_title;
   std::string y_title;
-  Scale x;                              ///< From data; where it is drawn is set here.
+  Scale x;  ///< Set from data; its position in the drawing is set by draw_panels().
   std::vector<std::string> categories;  ///< Names of x = 0, 1, …, instead of ticks; "" for none.
   Scale y;
   bool connected = false;  ///< Whether a series' marks are joined by a line.
 };
 
-/// Draws the panels from left to right and downwards, below `top`, each with its own `forms` where
-/// there are as many as panels, or all with the first. Sets the drawing's height.
+/// Draws the panels row by row below `top`, each with its own element of `forms` if there are as
+/// many as panels, or else all with the first. Sets the drawing's height.
 void draw_panels(Svg& svg, const std::vector<Panel>& panels, const std::vector<PanelForm>& forms,
                  double top);
 
-/// As many characters as a category's name may have, of so many in one of so many panels.
+/// Maximum length of a category's name [characters], given the number of categories in a panel and
+/// of panels.
 std::size_t most_category_name(std::size_t categories, std::size_t panels);
 
 }  // namespace tagfield

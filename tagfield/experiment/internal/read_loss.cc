@@ -16,7 +16,7 @@ bool is_lost_alone(const TagRead& read, double share, std::uint64_t seed) {
   return uniform_above_0(stream) <= share;
 }
 
-/// When bursts begin [s], rising, such that those that reach into first_s … last_s are among them.
+/// Begins of bursts [s], ascending, including all bursts that overlap first_s … last_s.
 std::vector<double> begins_of_bursts(const ReadLoss& loss, double first_s, double last_s,
                                      std::uint64_t seed) {
   std::vector<double> begins;
@@ -38,7 +38,7 @@ std::vector<double> begins_of_bursts(const std::vector<TagRead>& reads, const Re
   return begins_of_bursts(loss, to_seconds(first->stamp), to_seconds(last->stamp), seed);
 }
 
-/// Only the last burst that began before can still go on, as all are equally long.
+/// Only the most recent burst can still be active, as all are equally long.
 bool is_in_burst(double stamp_s, const std::vector<double>& begins, double burst_s) {
   const auto next = std::upper_bound(begins.begin(), begins.end(), stamp_s);
   return next != begins.begin() && stamp_s < *std::prev(next) + burst_s;

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kFewestToAlign = 3;  // Two fit in all but their distance.
+constexpr std::size_t kFewestToAlign = 3;  // Two could be aligned except for their distance.
 
 double horizontal(const Eigen::Vector3d& difference) { return difference.head<2>().norm(); }
 
@@ -36,14 +36,14 @@ double nearest_error(const std::vector<Candidate>& candidates, const Eigen::Vect
   return nearest;
 }
 
-/// None where the place can't be told at all, or is told from the beginning.
+/// None if the position can't be determined at all, or is known exactly.
 std::optional<TagBound> bound_of(const Eigen::Matrix3d& covariance) {
   const double variance_m2 = covariance.topLeftCorner<2, 2>().trace();
   if (!(covariance.allFinite() && variance_m2 > 0.0)) return std::nullopt;
   return TagBound{mean_horizontal_error(covariance), variance_m2};
 }
 
-/// Fills in what the estimate says.
+/// Fills in the results of the estimate.
 void add_estimate(const TagEstimate& estimate, TagRecord& record) {
   record.verdict = estimate.verdict;
   record.reason = estimate.reason;
@@ -88,7 +88,7 @@ void judge_by(const Bounds& bounds, MethodRun& run) {
 }
 
 void judge_claims(const Faults& faults, MethodRun& run) {
-  const bool can_be_true = has_true_place(faults, run.method);
+  const bool can_be_true = has_true_position(faults, run.method);
   for (TagRecord& tag : run.tags) {
     if (tag.verdict != Verdict::kLocated) continue;
     const bool too_far =

@@ -14,7 +14,7 @@
 namespace tagfield {
 namespace {
 
-/// Antennas further than this from a line have no one distance from a tag [m].
+/// Maximum deviation of antennas from a line for a tag's distance from it to be defined [m].
 constexpr double kLineWidth_m = 0.02;
 
 /// Mean of the antennas' heights [m].
@@ -24,7 +24,7 @@ double mean_height(const std::vector<AntennaPose>& poses) {
   return poses.empty() ? 0.0 : sum / static_cast<double>(poses.size());
 }
 
-/// Which coordinate `range_m` stands for, and which way it grows.
+/// Which coordinate `range_m` stands for, and in which direction it grows.
 struct Away {
   Eigen::Index axis = 1;
   double sign = 1.0;
@@ -50,7 +50,7 @@ Away away_of(const SuiteRecording& recording) {
       ": range_m is a distance from the antennas' path, so it needs side: +x, -x, +y or -y");
 }
 
-/// Where the way lies on that axis [m].
+/// Coordinate of the antennas' path on that axis [m].
 double line_of(const SuiteRecording& recording, const std::vector<AntennaPose>& poses,
                Eigen::Index axis) {
   double sum = 0.0;
@@ -67,7 +67,7 @@ double line_of(const SuiteRecording& recording, const std::vector<AntennaPose>& 
   return line;
 }
 
-/// Reads places from the rows of a table, whichever of its two forms it has.
+/// Reads positions from the rows of a table in either of its two formats.
 class PlaceColumns {
  public:
   PlaceColumns(const CsvTable& table, const SuiteRecording& recording,
@@ -146,7 +146,7 @@ std::map<std::string, Eigen::Vector3d> read_tag_truth(const SuiteRecording& reco
                                                          recording.truth, recording.experiment));
 }
 
-KnownBeforehand known_of(const SuiteRecording& recording, const ToldPoseError& believed) {
+KnownBeforehand known_of(const SuiteRecording& recording, const StatedPoseError& believed) {
   KnownBeforehand known;
   known.heights.of_all = recording.tag_height_m;
   if (!recording.heights.empty()) known.heights.of_tag = read_tag_heights_csv(recording.heights);

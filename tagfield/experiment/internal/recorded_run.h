@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads that were recorded, and where their tags were.
+/// Recorded reads, and the true positions of their tags.
 #pragma once
 
 #include <map>
@@ -15,22 +15,23 @@
 
 namespace tagfield {
 
-/// The first of the recording's files that is not there.
+/// The first of the recording's files that does not exist.
 std::optional<std::string> missing_file(const SuiteRecording& recording);
 
-/// Where the tags were, by ID [m]: of a table with the columns tag, x_m, y_m, and z_m or else at
-/// the height `height_m`; or with range_m in place of y_m (of x_m), the distance from the antennas'
-/// way towards `side` +y or -y (+x or -x), which must run along the other axis. Only rows of
-/// `experiment`, unless that is "". Throws Error "FILE:LINE: …".
+/// The tags' positions by ID [m], from a table with the columns tag, x_m, y_m, and z_m or else the
+/// height `height_m`. The column y_m (x_m) may be replaced by range_m, the distance from the
+/// antennas' path towards `side` +y or -y (+x or -x); the path must then run along the other axis.
+/// Only rows of `experiment`, unless that is "". Throws Error "FILE:LINE: …".
 std::map<std::string, Eigen::Vector3d> read_tag_truth(const SuiteRecording& recording,
                                                       const std::vector<AntennaPose>& poses,
                                                       double height_m);
 
-/// What localization is told of a recording. Throws Error on a table of heights that can't be read.
-KnownBeforehand known_of(const SuiteRecording& recording, const ToldPoseError& believed);
+/// The prior knowledge for localization from a recording. Throws Error on a table of heights that
+/// can't be read.
+KnownBeforehand known_of(const SuiteRecording& recording, const StatedPoseError& believed);
 
-/// Reads, poses, and the places of the tags at rest. Warns of tags that were read and whose places
-/// are not known. Throws Error on files that can't be read.
+/// Loads reads, poses, and the positions of the stationary tags. Warns about tags that were read
+/// but whose positions are unknown. Throws Error on files that can't be read.
 Recording load_recording(const SuiteRecording& recording, const ReadRecording& read,
                          Diagnostics& diagnostics);
 

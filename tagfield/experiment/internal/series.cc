@@ -16,7 +16,7 @@ constexpr double kMarkHeight = 15.0;
 constexpr double kGroupGap = 9.0;
 constexpr double kSeriesBottom = 48.0;
 constexpr std::size_t kMostSeriesName = 22;
-constexpr double kLeast = 1e-3;  // What is beyond is drawn here.
+constexpr double kLeast = 1e-3;  // Smaller values are drawn here.
 constexpr double kMost = 1e4;
 
 double height_of(const MarkGroup& group) {

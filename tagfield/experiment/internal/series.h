@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the figures of a comparison share: colours of methods, legends, rows of conditions.
+/// Common parts of a comparison's figures: colours of methods, legends, rows of conditions.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace tagfield {
 
-/// The classes of a method's lines and dots.
+/// The CSS classes of a method's lines and dots.
 struct Series {
   std::string line;
   std::string dot;
@@ -23,12 +23,12 @@ Series series_of(const Bench& bench, const std::string& name);
 std::vector<LegendEntry> legend_of(const Bench& bench, const std::vector<std::string>& names,
                                    Symbol symbol);
 
-/// Something to be drawn in a row, with the entry that it belongs to.
+/// A mark drawn in a row, with the entry that it belongs to.
 struct RowMark {
   const BenchEntry* entry = nullptr;
   double value = 0.0;
   std::string tooltip;
-  double band_low = 0.0;  ///< Drawn where `band_high` is greater.
+  double band_low = 0.0;  ///< Drawn if `band_high` is greater.
   double band_high = 0.0;
 };
 

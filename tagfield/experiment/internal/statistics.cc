@@ -7,7 +7,7 @@
 namespace tagfield {
 namespace {
 
-/// One property of the tags that have it.
+/// Values of a property, of the tags that have it.
 std::vector<double> all_of(const BenchEntry& entry, std::optional<double> TagRecord::*property) {
   std::vector<double> values;
   for (const MethodRun& run : entry.runs) {

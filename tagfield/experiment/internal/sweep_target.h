@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What sweeps are ordered and halved by.
+/// The quantity that sweeps are sorted and halved by.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,11 @@
 
 namespace tagfield {
 
-/// What has no value for a target comes last.
+/// Anything without a value for the target comes last.
 inline constexpr double kLastTargetValue = std::numeric_limits<double>::infinity();
 
-/// Of EntryStatistics or a SweepRow, which call these alike; less is better.
+/// Value of the target for EntryStatistics or a SweepRow, whose members have the same names; less
+/// is better.
 template <typename Statistics>
 double target_value(const Statistics& all, SweepTarget target) {
   const auto share = [&](std::size_t count) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What all methods made of one run, as a line of JSON, from which all that a bench or a sweep says
-/// can be computed again to the last bit.
+/// The results of all methods for one run, as a line of JSON from which all output of a bench or a
+/// sweep can be recomputed bit for bit.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct ConditionRun {
 
 std::string to_json_line(const ConditionRun& run);
 
-/// Inverse. Throws Error, which begins with `location`, on text that is no such line.
+/// Inverse. Throws Error, which begins with `location`, on text that is not such a line.
 ConditionRun condition_run_in(std::string_view json, const Location& location);
 
 }  // namespace tagfield

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view kHeadWord = "tagfield-results";
 constexpr std::size_t kCrcDigits = 8;
-constexpr std::size_t kMostWaiting = std::size_t{1} << 22U;  // Bytes that are written at once.
+constexpr std::size_t kMostWaiting = std::size_t{1} << 22U;  // Bytes buffered before a write.
 constexpr const char* kOk = "ok";
 constexpr const char* kFailed = "failed";
 
@@ -42,7 +42,7 @@ std::string line_of(const LoggedRun& run) {
   return fmt::format("{:08x} {}\n", crc_of(rest), rest);
 }
 
-/// The text up to the next space, which is taken off.
+/// Removes and returns the text up to the next space.
 std::string_view next_word(std::string_view& text) {
   const std::size_t end = text.find(' ');
   const std::string_view word = text.substr(0, end);
@@ -93,7 +93,7 @@ void require_head(const std::string& path, std::string_view line, const LogHead&
                               head.work, expected.work));
 }
 
-/// Calls `take` with each whole line and its offset; a last one without its end is no line.
+/// Calls `take` with each complete line and its offset; a last one without a line break is ignored.
 void read_lines(const std::string& path,
                 const std::function<void(std::string_view, std::uint64_t)>& take) {
   std::string rest;
@@ -111,7 +111,7 @@ void read_lines(const std::string& path,
   });
 }
 
-/// Size of a log up to its last whole line. Throws Error where it is of other work.
+/// Size of a log up to its last complete line. Throws Error if it is of other work.
 std::uint64_t whole_size(const std::string& path, const LogHead& head) {
   std::uint64_t size = 0;
   read_lines(path, [&](std::string_view line, std::uint64_t offset) {
@@ -132,7 +132,7 @@ LoggedRun logged_run_in(std::string_view line, const Location& location) {
 }
 
 void read_result_log(const std::string& path, const LogHead& head, Diagnostics& diagnostics,
-                     const std::function<void(const LoggedRun&, const LogPlace&)>& take) {
+                     const std::function<void(const LoggedRun&, const LogLocation&)>& take) {
   int number = 0;
   read_lines(path, [&](std::string_view line, std::uint64_t offset) {
     if (++number == 1) {
@@ -160,7 +160,7 @@ ResultLog::ResultLog(const std::string& path, const LogHead& head, double save_e
 ResultLog::~ResultLog() {
   try {
     finish();
-  } catch (const Error&) {  // Who wants to hear of it has called finish().
+  } catch (const Error&) {  // Callers that need the error call finish() themselves.
   }
   ::close(file_);
 }
@@ -170,7 +170,7 @@ void ResultLog::open_and_lock() {
   fs::create_directories(fs::path(path_).parent_path(), error);
   file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) fail({path_, 0}, fmt::format("can't be written: {}", std::strerror(errno)));
-  // Where the file system knows no locks, checksums still tell what is whole.
+  // If the file system doesn't support locks, checksums still identify complete lines.
   int refused = 0;
   do {
     refused = ::flock(file_, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
@@ -217,7 +217,7 @@ void ResultLog::save() {
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       const int why = count < 0 ? errno : ENOSPC;
-      // Whoever goes on would drop the part of a line as well.
+      // A later resume would drop the partial line as well.
       static_cast<void>(::ftruncate(file_, static_cast<off_t>(size_)));
       fail({path_, 0}, fmt::format("can't be written: {}; what is in it is whole, run it again "
                                    "once there is room",

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Results of runs in a file that only grows: each is there whole or not at all, whatever ends the
-/// program. So it is known afterwards which runs were done, and the rest can go on.
+/// Results of runs in an append-only file: each is stored completely or not at all, however the
+/// program ends. So it is known afterwards which runs are done, and the rest can be resumed.
 ///
-/// A line says whose results they are (LogHead), then each line is one run: CRC-32 of what follows
+/// The first line identifies the work (LogHead), then each line is one run: CRC-32 of what follows
 /// in eight hexadecimal digits, "POINT:SEED", "ok" or "failed", CPU seconds, and the body, which is
 /// one line of text.
 #pragma once
@@ -20,9 +20,9 @@
 
 namespace tagfield {
 
-/// Which run it is of those that a suite, or a scenario, asks for.
+/// Identifies a run among those of a suite or a scenario.
 struct RunKey {
-  std::uint64_t point = 0;  ///< Place of the condition in the suite, from 0 on.
+  std::uint64_t point = 0;  ///< Index of the condition in the suite, from 0.
   std::uint64_t seed = 0;
   auto operator<=>(const RunKey&) const = default;
 };
@@ -30,50 +30,50 @@ struct RunKey {
 /// "POINT:SEED".
 std::string to_string(const RunKey& key);
 
-/// Whose results a log holds.
+/// Identifies the work that a log has results of.
 struct LogHead {
-  std::string program;  ///< Version: results of another are not mixed with these.
-  std::string work;     ///< Hash of all that the results follow from (see identity.h).
+  std::string program;  ///< Version: results of different versions are not mixed.
+  std::string work;     ///< Hash of everything that the results depend on (see work_hash.h).
   bool operator==(const LogHead&) const = default;
 };
 
 /// One run's result.
 struct LoggedRun {
   RunKey key;
-  bool failed = false;    ///< Then `body` says why.
-  double cpu_s = 0.0;     ///< That it took.
-  std::string_view body;  ///< Without line ends.
+  bool failed = false;    ///< If so, `body` is the reason.
+  double cpu_s = 0.0;     ///< CPU time it took.
+  std::string_view body;  ///< Without line breaks.
 };
 
-/// Where a result stands in its file.
-struct LogPlace {
+/// Position of a result in its file.
+struct LogLocation {
   std::uint64_t offset = 0;  ///< Of its line [bytes].
-  std::uint64_t length = 0;  ///< Without the line's end.
+  std::uint64_t length = 0;  ///< Without the line break.
 };
 
-/// What becomes of the results that a log holds already.
+/// Whether to keep or drop the results that are already in a log.
 enum class LogStart { kGoOn, kAnew };
 
-/// Writes a log. Safe to be used by several threads.
+/// Writes a log. Thread-safe.
 class ResultLog {
  public:
-  /// Opens a log to go on with it, or makes it and its folder. A last line that was cut off is
-  /// dropped. What was added is written, and on its way to the disk, `save_every_s` later at most,
-  /// or when the next result comes if that is later: on file systems that many machines share, few
-  /// large writes are what costs least. Throws Error where the file can't be written to, is of
-  /// other work (LogHead), or another process is at it.
+  /// Opens a log to append to it, or creates it and its folder. A truncated last line is dropped.
+  /// Added results are buffered: they are written and flushed towards the disk `save_every_s` after
+  /// the last write, or with the next result if that is later. On file systems shared by many
+  /// machines a few large writes are the cheapest. Throws Error if the file can't be written, is of
+  /// other work (LogHead), or is locked by another process.
   ResultLog(const std::string& path, const LogHead& head, double save_every_s = 0.0,
             LogStart start = LogStart::kGoOn);
   ~ResultLog();
   ResultLog(const ResultLog&) = delete;
   ResultLog& operator=(const ResultLog&) = delete;
 
-  /// Bytes of results that were there and went, with LogStart::kAnew.
+  /// Bytes of earlier results that were dropped, with LogStart::kAnew.
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
-  /// Throws Error where the disk is full; what was written before remains whole.
+  /// Adds a result. Throws Error if the disk is full; what was written before remains intact.
   void add(const LoggedRun& run);
-  /// Writes all that was added through to the disk. Throws Error likewise.
+  /// Writes everything that was added to the disk. Throws Error as add() does.
   void finish();
 
  private:
@@ -85,20 +85,21 @@ class ResultLog {
   std::string path_;
   double save_every_s_;
   int file_ = -1;
-  std::uint64_t size_ = 0;  ///< Of what is whole in the file.
+  std::uint64_t size_ = 0;  ///< Of the complete lines in the file.
   std::uint64_t dropped_ = 0;
   std::string waiting_;
   Clock::time_point saved_ = Clock::now();
   std::mutex mutex_;
 };
 
-/// Calls `take` for each whole line of a log, in their order. Lines that are damaged are warned of
-/// and left out: their runs count as not done. Throws Error where the file can't be read or is of
-/// other work.
+/// Calls `take` for each complete line of a log, in order. Damaged lines are skipped with a
+/// warning: their runs count as not done. Throws Error if the file can't be read or is of other
+/// work.
 void read_result_log(const std::string& path, const LogHead& head, Diagnostics& diagnostics,
-                     const std::function<void(const LoggedRun&, const LogPlace&)>& take);
+                     const std::function<void(const LoggedRun&, const LogLocation&)>& take);
 
-/// The result in a line of a log; its text is that of `line`. Throws Error where it is damaged.
+/// The result in a line of a log; its `body` refers to the text of `line`. Throws Error if the line
+/// is damaged.
 LoggedRun logged_run_in(std::string_view line, const Location& location);
 
 }  // namespace tagfield

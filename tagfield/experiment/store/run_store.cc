@@ -25,7 +25,7 @@ RunStore::RunStore(std::string path, const LogHead& head, Resume resume, Diagnos
                                              log_.dropped()));
   }
   if (resume == Resume::kNo) return;
-  read_result_log(path_, head, diagnostics, [&](const LoggedRun& run, const LogPlace&) {
+  read_result_log(path_, head, diagnostics, [&](const LoggedRun& run, const LogLocation&) {
     if (!run.failed) earlier_[run.key] = std::string(run.body);
   });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The runs of a bench or of many seeds that are done, kept in a log until all are: so that one
-/// that was cut off, whatever by, goes on where it was.
+/// The finished runs of a bench or of many seeds, kept in a log until all are done, so that an
+/// interrupted one can be resumed.
 #pragma once
 
 #include <map>
@@ -12,29 +12,29 @@
 
 namespace tagfield {
 
-/// Whether runs that were done earlier count.
+/// Whether to reuse runs that were done earlier.
 enum class Resume { kNo, kYes };
 
-/// The log's name in a folder of results, which keeps it (StagedFolder::keep()).
+/// The log's name in a results folder, which keeps it (StagedFolder::keep()).
 inline constexpr const char* kResumeLog = "resume.log";
 
-/// Safe to be used by several threads, but for drop().
+/// Thread-safe, except for drop().
 class RunStore {
  public:
-  /// Opens or makes the log at `path`. With Resume::kYes what is in it counts; else it is emptied,
-  /// which `diagnostics` warns of where it held runs. Throws Error as ResultLog does: with kYes
-  /// also where it is of other work.
+  /// Opens or creates the log at `path`. With Resume::kYes its runs are reused; otherwise it is
+  /// emptied, with a warning if it had runs. Throws Error as ResultLog does; with kYes also if the
+  /// log is of other work.
   RunStore(std::string path, const LogHead& head, Resume resume, Diagnostics& diagnostics);
 
-  /// What a run came to earlier; null where it is to be done.
+  /// The earlier result of a run; null if it is still to be done.
   [[nodiscard]] const std::string* find(const RunKey& key) const;
   [[nodiscard]] std::size_t found() const { return earlier_.size(); }
   [[nodiscard]] Location location() const { return {path_, 0}; }
 
-  /// Keeps what a run came to, a line of text.
+  /// Stores the result of a run, a line of text.
   void add(const RunKey& key, const std::string& body);
 
-  /// Deletes the log: all is done, and written elsewhere.
+  /// Deletes the log, once all runs are done and their results written elsewhere.
   void drop();
 
  private:

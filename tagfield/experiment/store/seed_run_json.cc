@@ -68,7 +68,7 @@ std::vector<TagOutcome> outcomes_in(const Member& list) {
   return outcomes;
 }
 
-/// Cells by their values and how many are alike in a row.
+/// Run-length encoded cells.
 Member member_of(const OccupancyGrid& map) {
   Member lengths = Member::array();
   for (std::size_t i = 0; i < map.cells.size();) {
@@ -151,7 +151,7 @@ NavigationRun navigation_in(const Member& member) {
   run.closest_m = exact_double_in(member.at("closest_m"));
   run.collisions = member.at("collisions").get<int>();
   for (const Member& finding : member.at("findings")) {
-    run.findings.push_back({static_cast<PlaceLoss>(finding.at(0).get<int>()),
+    run.findings.push_back({static_cast<PositionLoss>(finding.at(0).get<int>()),
                             finding.at(1).get<bool>(), exact_optional_in(finding.at(2)),
                             exact_double_in(finding.at(3)), finding.at(4).get<int>()});
   }

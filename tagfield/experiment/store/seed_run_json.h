@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a seed's run came to, as a line of JSON.
+/// The result of a seed's run as a line of JSON.
 #pragma once
 
 #include <string>
@@ -12,17 +12,18 @@
 
 namespace tagfield {
 
-/// One seed, and what there was to warn of.
+/// The run of one seed, and its warnings.
 struct KeptSeed {
   SeedRun run;
   std::vector<std::string> warnings;
 };
 
-/// All that summarize() asks of another run than the first: not the recording, of candidates no
-/// covariance, of a survey no ways and no map but the one that was driven by.
+/// Everything that summarize() needs of runs other than the first. Omits the recording, the
+/// covariances of candidates, and the paths and maps of a survey except the map that was navigated
+/// with.
 std::string to_json_line(const SeedRun& run, const std::vector<std::string>& warnings);
 
-/// Inverse. Throws Error, which begins with `location`, on text that is no such line.
+/// Inverse. Throws Error, which begins with `location`, on text that is not such a line.
 KeptSeed kept_seed_in(std::string_view json, const Location& location);
 
 }  // namespace tagfield

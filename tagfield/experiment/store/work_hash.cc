@@ -16,7 +16,7 @@ namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
-/// FNV-1a, 64 bits, of parts each of which begins with its length.
+/// FNV-1a, 64 bits, of parts that are each prefixed with their length.
 class ContentHash {
  public:
   void add(std::string_view bytes) {
@@ -46,7 +46,7 @@ void add_to_hash(const RigidTransform& transform, ContentHash& hash) {
   add_numbers(transform.rotation.coeffs(), hash);
 }
 
-/// Shapes, each by what it has.
+/// Adds a shape's parameters.
 struct AddShape {
   ContentHash& hash;
   void operator()(const Box& box) const { add_numbers(box.size, hash); }
@@ -87,7 +87,7 @@ void add_to_hash(const Scene& scene, ContentHash& hash) {
   add_to_hash(scene.tags, hash);
 }
 
-/// A file's bytes, or those of all files in a folder; nothing of what is not there.
+/// Adds a file's bytes, or those of all files in a folder; nothing if it does not exist.
 void add_file(const fs::path& path, ContentHash& hash) {
   std::error_code error;
   if (fs::is_regular_file(path, error)) {
@@ -104,7 +104,7 @@ void add_file(const fs::path& path, ContentHash& hash) {
   }
 }
 
-/// Files that words of a YAML text name, relative to `folder`.
+/// Adds files named by scalars of a YAML document, relative to `folder`.
 void add_named_files(const YAML::Node& node, const fs::path& folder, int level, ContentHash& hash) {
   constexpr int kMostLevels = 100;
   if (level > kMostLevels) return;
@@ -128,7 +128,7 @@ void add_overrides(const std::vector<Override>& overrides, ContentHash& hash) {
   }
 }
 
-/// The scenario as it stands in its file, and what that names.
+/// Adds the scenario's file, and the files that it names.
 void add_scenario(const std::string& path, ContentHash& hash) {
   hash.add(read_text_file(path));
   add_named_files(read_yaml(path), fs::path(path).parent_path(), 0, hash);
@@ -136,7 +136,7 @@ void add_scenario(const std::string& path, ContentHash& hash) {
 
 void add_world(const std::string& path, std::vector<Override> overrides, const WorldOptions& world,
                ContentHash& hash) {
-  // How tags are located says nothing of the world, and can be a method's that is not known here.
+  // Localization settings don't affect the world, and may belong to a method that is unknown here.
   std::erase_if(overrides, [](const Override& setting) {
     return setting.first.rfind("localization", 0) == 0;
   });

@@ -11,8 +11,8 @@
 
 namespace tagfield {
 
-/// `methods`: the names that the suite has, of which `adaptive` chooses one. `seeds`: how many the
-/// suite has of each point. Throws Error "FILE:LINE: …".
+/// Reads the section. `methods`: the names in the suite, of which `adaptive` chooses one. `seeds`:
+/// the suite's number of seeds per point. Throws Error "FILE:LINE: …".
 SweepDesign sweep_design_of(const YamlValue& value, const std::vector<std::string>& methods,
                             std::uint64_t seeds);
 

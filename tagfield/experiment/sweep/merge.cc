@@ -18,7 +18,7 @@
 namespace tagfield {
 namespace {
 
-/// Reads lines out of a log.
+/// Reads lines from a log.
 class LogReader {
  public:
   explicit LogReader(const std::string& path)
@@ -29,7 +29,7 @@ class LogReader {
   LogReader(const LogReader&) = delete;
   LogReader& operator=(const LogReader&) = delete;
 
-  [[nodiscard]] std::string line(const LogPlace& place) const {
+  [[nodiscard]] std::string line(const LogLocation& place) const {
     std::string text(place.length, '\0');
     std::size_t done = 0;
     while (done < text.size()) {
@@ -51,7 +51,7 @@ std::string line_of_run(const RunIndex& index, const FoundRun& run) {
   return LogReader(index.logs[run.log]).line(run.place);
 }
 
-/// Without what differs from time to time.
+/// The run's result without run times, which differ each time.
 std::string timeless(const RunIndex& index, const FoundRun& run) {
   const std::string line = line_of_run(index, run);
   const Location location{index.logs[run.log], 0};
@@ -60,7 +60,7 @@ std::string timeless(const RunIndex& index, const FoundRun& run) {
   return to_json_line(result);
 }
 
-/// Whole results go first, then what stands in an earlier log.
+/// Successful results come first, then those in earlier logs.
 bool goes_before(const FoundRun& a, const FoundRun& b) {
   if (a.key != b.key) return a.key < b.key;
   if (a.failed != b.failed) return b.failed;
@@ -135,7 +135,8 @@ void add_run(const LoggedRun& run, const Location& location, std::uint64_t first
   if (run.key.seed == first_seed) results.warnings = std::move(found.warnings);
 }
 
-/// End of the runs of as many whole points from `begin` on as take less than `most_bytes`.
+/// End of the runs of as many complete points from `begin` on as fit into `most_bytes`; at least
+/// one point.
 std::size_t window_end(const RunIndex& index, std::size_t begin, std::size_t most_bytes) {
   std::size_t bytes = 0;
   std::size_t whole = begin;
@@ -161,10 +162,11 @@ RunIndex index_runs(const std::vector<std::string>& logs, const LogHead& head,
   RunIndex index;
   index.logs = logs;
   for (std::size_t log = 0; log < logs.size(); ++log) {
-    read_result_log(logs[log], head, diagnostics, [&](const LoggedRun& run, const LogPlace& place) {
-      index.runs.push_back({run.key, log, place, run.failed, run.cpu_s});
-      index.cpu_s += run.cpu_s;
-    });
+    read_result_log(logs[log], head, diagnostics,
+                    [&](const LoggedRun& run, const LogLocation& place) {
+                      index.runs.push_back({run.key, log, place, run.failed, run.cpu_s});
+                      index.cpu_s += run.cpu_s;
+                    });
   }
   keep_each_once(index);
   return index;
@@ -209,7 +211,7 @@ double score_of(const PointResults& results, const Halving& halving) {
 
 namespace {
 
-/// What was there when the rung was over: its runs alone, whatever came later.
+/// The results at the end of the rung, without those of later rungs.
 PointResults only_seeds_below(const PointResults& results, std::uint64_t end) {
   PointResults kept = results;
   for (BenchEntry& entry : kept.entries) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The logs of a sweep put together: the same whatever the shards, their order, and how often they
-/// were killed.
+/// Merges the logs of a sweep. The result does not depend on the shards, their order, or how often
+/// they were killed.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +17,25 @@
 
 namespace tagfield {
 
-/// A run that is in a log.
+/// A run found in a log.
 struct FoundRun {
   RunKey key;
   std::size_t log = 0;  ///< In RunIndex::logs.
-  LogPlace place;
+  LogLocation place;
   bool failed = false;
   double cpu_s = 0.0;
 };
 
-/// Where each run's result stands.
+/// The positions of all runs' results.
 struct RunIndex {
   std::vector<std::string> logs;
-  std::vector<FoundRun> runs;  ///< By point, then by seed; each once.
-  double cpu_s = 0.0;          ///< That all took, those among them that were done twice.
+  std::vector<FoundRun> runs;  ///< By point, then by seed, without duplicates.
+  double cpu_s = 0.0;          ///< CPU time of all runs, including duplicates.
 };
 
-/// Reads all logs, without keeping what is in them: some 50 bytes a run. Of a run that is there
-/// several times a whole result goes before a failed one. Throws Error where two whole ones differ,
-/// times excepted, and where a log is of other work.
+/// Indexes all logs without keeping their contents: about 50 bytes per run. If a run occurs several
+/// times, a successful result is preferred over a failed one. Throws Error if two successful ones
+/// differ, except in times, and if a log is of other work.
 RunIndex index_runs(const std::vector<std::string>& logs, const LogHead& head,
                     Diagnostics& diagnostics);
 
@@ -44,7 +44,7 @@ struct FailedRun {
   std::string reason;
 };
 
-/// All that there is of one point.
+/// All results of one point.
 struct PointResults {
   std::uint64_t point = 0;
   std::vector<BenchEntry> entries;  ///< One for each method that runs in it, in the suite's order.
@@ -52,8 +52,9 @@ struct PointResults {
   std::vector<std::string> warnings;  ///< Of its first seed.
 };
 
-/// Hands over each point that has runs, in order. Runs of several points are read at once, each log
-/// opened once for them, as long as they take less than `most_bytes` together; of one point all.
+/// Calls `take` for each point that has runs, in order. Runs of several points are read together,
+/// opening each log once, up to a total of `most_bytes`; all runs of one point are always read
+/// together.
 void for_each_point(const SweepPlan& plan, const RunIndex& index,
                     const std::function<void(const PointResults&)>& take,
                     std::size_t most_bytes = std::size_t{1} << 28U);
@@ -61,12 +62,12 @@ void for_each_point(const SweepPlan& plan, const RunIndex& index,
 /// The runs of `runs` that are not in the index.
 std::vector<RunKey> missing_of(const std::vector<RunKey>& runs, const RunIndex& index);
 
-/// How a point came out in what an adaptive sweep aims at; less is better. A point with failed
-/// runs, or without what is aimed at, comes last.
+/// The score of a point by the target of an adaptive sweep; less is better. A point with failed
+/// runs, or without a value of the target, comes last.
 double score_of(const PointResults& results, const Halving& halving);
 
-/// Whether another rung was closed: where no run of the last open one is missing, and it is not the
-/// last of all, its best points are added to `closed`.
+/// Whether another rung was closed: if no run of the last open rung is missing, and it is not the
+/// final one, its best points are added to `closed`.
 bool close_rung(const SweepPlan& plan, const RunIndex& index, ClosedRungs& closed);
 
 }  // namespace tagfield

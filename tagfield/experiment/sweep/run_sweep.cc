@@ -16,7 +16,7 @@
 namespace tagfield {
 namespace {
 
-/// A point made ready to run, or why it can't be.
+/// A point prepared for running, or why it can't be.
 struct ReadyPoint {
   std::once_flag once;
   PreparedSuite suite;
@@ -29,7 +29,7 @@ void make_ready(const SweepPlan& plan, const SweepMeans& means, std::uint64_t po
   Diagnostics diagnostics;
   try {
     ready.suite = prepare(suite_of_point(plan, point), means.methods, diagnostics, means.read);
-    // A bench goes on without a recording that is not there.
+    // A bench continues without a missing recording.
     if (ready.suite.conditions.empty()) ready.fault = diagnostics.warnings().at(0);
   } catch (const Error& error) {
     ready.fault = error.what();
@@ -37,7 +37,7 @@ void make_ready(const SweepPlan& plan, const SweepMeans& means, std::uint64_t po
   ready.warnings = diagnostics.warnings();
 }
 
-/// The points that runs were lately done of.
+/// Cache of the points of recent runs.
 class ReadyPoints {
  public:
   ReadyPoints(const SweepPlan& plan, const SweepMeans& means, std::size_t most)
@@ -84,7 +84,7 @@ struct Outcome {
 
 Outcome failure(const std::string& why) { return {true, as_one_line(why)}; }
 
-/// None where it was stopped.
+/// None if it was stopped.
 std::optional<Outcome> outcome_of(ReadyPoints& points, const RunKey& key,
                                   const RunControl& of_one) {
   try {
@@ -102,7 +102,7 @@ std::optional<Outcome> outcome_of(ReadyPoints& points, const RunKey& key,
   }
 }
 
-/// What all threads of do_runs() share.
+/// State shared by all threads of do_runs().
 class Working {
  public:
   Working(const NextRun& next, const std::function<void()>& on_run)
@@ -159,7 +159,7 @@ std::vector<RunKey> not_done(const std::vector<RunKey>& runs, const std::vector<
   std::set<RunKey> done;
   for (const std::string& log : logs) {
     read_result_log(log, head, diagnostics,
-                    [&](const LoggedRun& run, const LogPlace&) { done.insert(run.key); });
+                    [&](const LoggedRun& run, const LogLocation&) { done.insert(run.key); });
   }
   std::vector<RunKey> left;
   std::copy_if(runs.begin(), runs.end(), std::back_inserter(left),

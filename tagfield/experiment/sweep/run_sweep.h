@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Does runs of a sweep and logs what comes of them.
+/// Executes runs of a sweep and logs their results.
 #pragma once
 
 #include <cstdint>
@@ -17,34 +17,35 @@
 
 namespace tagfield {
 
-/// What runs are made with.
+/// Resources for runs.
 struct SweepMeans {
   std::vector<Method> methods;  ///< Those that the suite may name.
-  ReadRecording read;           ///< Of conditions with recordings.
+  ReadRecording read;           ///< For conditions with recordings.
 };
 
-/// Who gives out runs, one to each call, until there are none; may be called from any thread, one
-/// at a time. Runs of the same point best come after one another: what a point needs is read once.
+/// Source of runs, one per call until there are none. It may be called from any thread, but not
+/// concurrently. Runs of the same point should be consecutive: what a point needs is then loaded
+/// once.
 using NextRun = std::function<std::optional<RunKey>()>;
 
-/// What became of the runs.
+/// Number of runs done.
 struct RunsDone {
   std::size_t ok = 0;
   std::size_t failed = 0;
 };
 
-/// Does the runs that `next` gives on `control.threads` threads. One that fails is logged with the
-/// reason and the others go on. Ends early, with whole runs logged, where `control.stop` is set.
-/// `on_run` is told of each that is done. Throws Error where the log can't be written.
+/// Executes the runs given by `next` on `control.threads` threads. A failed run is logged with the
+/// reason and the others continue. Ends early, with only complete runs logged, if `control.stop` is
+/// set. Calls `on_run` after each run. Throws Error if the log can't be written.
 RunsDone do_runs(const SweepPlan& plan, const SweepMeans& means, const NextRun& next,
                  ResultLog& log, const RunControl& control, const std::function<void()>& on_run);
 
-/// Those of `runs` that none of the logs holds, in their order; failed ones count as done. What is
-/// damaged is warned of.
+/// Those of `runs` that are in none of the logs, in their order; failed ones count as done. Warns
+/// about damaged lines.
 std::vector<RunKey> not_done(const std::vector<RunKey>& runs, const std::vector<std::string>& logs,
                              const LogHead& head, Diagnostics& diagnostics);
 
-/// Gives out a list.
+/// A source of runs from a list.
 class RunList {
  public:
   explicit RunList(std::vector<RunKey> runs) : runs_(std::move(runs)) {}
@@ -59,8 +60,8 @@ class RunList {
   std::size_t given_ = 0;
 };
 
-/// Throws Error, as `tagfield bench` would, on what would make all runs of a condition fail: its
-/// first point is made ready.
+/// Throws Error, as `tagfield bench` would, on anything that would make all runs of a condition
+/// fail, by preparing its first point.
 void require_runnable(const SweepPlan& plan, const SweepMeans& means, Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -21,18 +21,18 @@ namespace {
 constexpr std::size_t kMostPanels = 24;
 constexpr std::size_t kMostGridKeys = 3;
 constexpr std::size_t kMostTitle = 30;
-constexpr double kLogarithmicOver = 10.0;  // Of the greatest value over the least.
+constexpr double kLogarithmicOver = 10.0;  // Ratio of the largest to the smallest value.
 constexpr double kLeastShown_mm = 0.01;
 constexpr double kNinetyFivePercent = 1.96;
 
-/// A number of a row, and the bar around it.
+/// A value of a row, with its error bar.
 struct Measured {
   double value = 0.0;
   double low = 0.0;
   double high = 0.0;
 };
 
-/// What is drawn upwards.
+/// The quantity on the vertical axis.
 struct Metric {
   std::string name;
   std::string title;
@@ -66,7 +66,7 @@ std::vector<Metric> metrics() {
        located_percent}};
 }
 
-/// Values of a key in the order in which they come, each once.
+/// Distinct values of a key, in order of first occurrence.
 std::vector<std::string> values_of_key(const SweepPlan& plan, const std::string& key) {
   std::vector<std::string> values;
   std::set<std::string> seen;
@@ -82,7 +82,7 @@ bool all_numbers(const std::vector<std::string>& values) {
                      [](const std::string& value) { return parse_number(value).has_value(); });
 }
 
-/// Where values of a key are drawn to the right: as numbers, or one beside the other.
+/// The horizontal axis for a key: its values as numbers, or side by side as categories.
 struct KeyAxis {
   std::vector<std::string> values;
   bool numeric = false;
@@ -118,7 +118,7 @@ std::vector<std::string> category_names(const std::vector<std::string>& values,
                                [&](const std::string& value) { return length_of(value) <= most; });
   std::vector<std::string> names;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    // What has no room is numbered, and the caption says what the numbers are.
+    // Names that don't fit are replaced by numbers, which the caption explains.
     const bool shown = fit || i % (values.size() / 12 + 1) == 0;
     names.push_back(!shown ? "" : fit ? values[i] : fmt::format("{}", i + 1));
   }
@@ -137,7 +137,7 @@ PanelForm form_of(const KeyAxis& axis, std::size_t panels) {
   return form;
 }
 
-/// Of categories that are numbered.
+/// Caption for numbered categories.
 std::string numbers_text(const KeyAxis& axis, const PanelForm& form) {
   if (form.categories.empty() || form.categories == axis.values) return "";
   std::string text;
@@ -182,13 +182,13 @@ std::string title_of_others(const SweepResults& results, const SweepPoint& point
   const std::vector<Condition>& conditions = results.plan.suite.conditions;
   if (conditions.size() > 1) add(conditions[point.condition].name);
   for (const std::string& key : results.plan.keys) {
-    // The last word of a key is enough where the values differ.
+    // The last word of a key is enough to identify its value.
     if (key != x_key) add(key.substr(key.rfind('.') + 1) + " " + value_at(point, key));
   }
   return title;
 }
 
-/// The numeric key with most values, or else any with most.
+/// The numeric key with the most values, or else any key with the most.
 std::string key_to_the_right(const SweepPlan& plan) {
   std::string best;
   std::pair<bool, std::size_t> most{false, 0};
@@ -203,7 +203,7 @@ std::string key_to_the_right(const SweepPlan& plan) {
   return best;
 }
 
-/// Panels, what each shares, and words on them.
+/// Panels, their formats, and the caption.
 struct Multiples {
   std::vector<Panel> panels;
   std::vector<PanelForm> forms;
@@ -260,7 +260,7 @@ Multiples panels_by_key(const SweepResults& results, const Metric& metric) {
   return all;
 }
 
-/// A suite without a section `sweep`.
+/// For a suite without a section `sweep`.
 Multiples panel_of_conditions(const SweepResults& results, const Metric& metric) {
   Multiples all;
   KeyAxis axis;
@@ -289,7 +289,7 @@ Multiples multiples_of(const SweepResults& results, const Metric& metric) {
   return panels_by_key(results, metric);
 }
 
-/// A common scale upwards; none where there is nothing to draw.
+/// The common vertical scale; none if there is nothing to draw.
 std::optional<Scale> scale_upwards(const Metric& metric, const std::vector<Panel>& panels) {
   std::optional<std::pair<double, double>> range;
   for (const Panel& panel : panels) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A sweep as small multiples: the same axes over and over, a panel for each value of what else
-/// varies. Each method has a colour of its own throughout.
+/// A sweep as small multiples: the same axes repeated, with one panel per value of the remaining
+/// keys. Each method has a colour of its own throughout.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@ namespace tagfield {
 
 /// Mean error, then the share of tags located.
 ///
-/// Of a grid of up to three keys: the numeric key with most values to the right, a panel for each
-/// combination of the others (and for each condition), lines between neighbours, bars of 95 % by
-/// the standard error. Of other designs a panel for each key, a dot for each point.
+/// For a grid of up to three keys: the numeric key with most values on the horizontal axis, one
+/// panel per combination of the others (and per condition), lines between neighbours, 95 % bars
+/// from the standard error. For other designs one panel per key, one dot per point.
 std::vector<Figure> sweep_figures(const SweepResults& results);
 
 }  // namespace tagfield

@@ -32,7 +32,7 @@ std::string host_name() {
   return name.data();
 }
 
-/// Puts a file in its place by a name that no other process has, on this machine or another.
+/// Writes a file under a name unique to this process, across machines, and moves it into place.
 void publish(const std::string& path, const std::string& text) {
   const std::string own = fmt::format("{}.{}.{}", path, host_name(), ::getpid());
   write_text_file(own, text);
@@ -47,7 +47,7 @@ nlohmann::ordered_json read_json_of(const std::string& path) {
   return json;
 }
 
-/// Whether what stands there is whole numbers up to the end.
+/// The positive integer that makes up the whole text; none if it is not one.
 std::optional<std::size_t> positive_in(std::string_view text) {
   std::size_t number = 0;
   const char* const end = text.data() + text.size();

@@ -102,7 +102,7 @@ std::string mean_cell(const SweepRow& row) {
       fmt::format("{:.1f} ± {:.1f}", 1e3 * row.error_m->mean, 1e3 * *row.mean_standard_error_m));
 }
 
-/// Whether points are told by their conditions too.
+/// Whether points are also identified by their conditions.
 bool names_conditions(const SweepResults& results) {
   return results.plan.suite.conditions.size() > 1 || results.plan.keys.empty();
 }
@@ -115,7 +115,7 @@ std::string sweep_head(const SweepResults& results) {
   column("Method");
   if (names_conditions(results)) column("Condition");
   for (const std::string& key : results.plan.keys) {
-    // A long key may break where its words end.
+    // A long key may break after its words.
     std::string text = escaped(key);
     for (std::size_t at = 0; (at = text.find('.', at)) != std::string::npos; at += 6) {
       text.insert(at + 1, "<wbr>");

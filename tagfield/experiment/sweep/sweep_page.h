@@ -11,7 +11,7 @@
 
 namespace tagfield {
 
-/// The page, self-contained as report.html. `figures` are those of sweep_figures().
+/// The page, self-contained like report.html. `figures` are those of sweep_figures().
 std::string sweep_page(const SweepResults& results, const std::vector<Figure>& figures);
 
 }  // namespace tagfield

@@ -17,12 +17,12 @@ constexpr std::size_t kMostPoints = 1'000'000;
 
 using Settings = std::vector<Override>;
 
-/// As YAML. Six digits: nobody means more, and they are what a person would have written.
+/// The value as YAML. Six digits are enough, and look like what a person would have written.
 std::string value_text(double value, bool whole) {
   return whole ? fmt::format("{:.0f}", std::round(value)) : fmt::format("{:.6g}", value);
 }
 
-/// `share` of the way, in [0, 1].
+/// The value at `share` of the span, in [0, 1].
 std::string value_along(const NumberSpan& span, double share) {
   const double value = span.logarithmic ? span.from * std::pow(span.to / span.from, share)
                                         : span.from + (span.to - span.from) * share;
@@ -67,7 +67,7 @@ std::vector<Settings> settings_of(const GridDesign& grid, const Location& locati
   return points;
 }
 
-/// The numbers below `count` in a random order (Fisher and Yates).
+/// The numbers below `count` in random order (Fisher and Yates).
 std::vector<std::size_t> shuffled(std::size_t count, RandomStream& random) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -78,7 +78,7 @@ std::vector<std::size_t> shuffled(std::size_t count, RandomStream& random) {
   return order;
 }
 
-/// What a key has in the stratum, and there at `share`.
+/// The value of a key at `share` of the stratum.
 std::string value_in_stratum(const SweptKey& key, std::size_t stratum, std::size_t strata,
                              double share) {
   if (const auto* listed = std::get_if<std::vector<std::string>>(&key.values)) {

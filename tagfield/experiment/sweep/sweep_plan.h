@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A sweep taken apart into points and runs. Work is keyed, not scheduled: which runs there are
-/// follows from the suite alone (and, where it is adaptive, from the rungs that are closed), so
-/// whoever does which run when makes no difference.
+/// A sweep divided into points and runs. Work is keyed, not scheduled: the set of runs follows from
+/// the suite alone (and, if it is adaptive, from the closed rungs), so it makes no difference which
+/// process does which run, or when.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@
 
 namespace tagfield {
 
-/// One set of values that is tried.
+/// One set of values of the swept keys.
 struct SweepPoint {
   std::size_t condition = 0;       ///< In the suite.
   std::vector<Override> settings;  ///< Of the swept keys.
-  std::uint64_t seeds = 1;         ///< How many it has in all.
-  std::string name;  ///< "pose.sigma_m=0.01, …", after the condition's where several.
+  std::uint64_t seeds = 1;         ///< Total number of seeds.
+  std::string name;  ///< "pose.sigma_m=0.01, …", after the condition's if there are several.
 };
 
 struct SweepPlan {
@@ -30,40 +30,40 @@ struct SweepPlan {
   std::vector<SweepPoint> points;
 };
 
-/// The points of which each rung but the first consists, rising; of a sweep that is not adaptive
-/// none.
+/// The points of each rung except the first, in ascending order; empty for a sweep that is not
+/// adaptive.
 struct ClosedRungs {
   std::vector<std::vector<std::uint64_t>> survivors;
 };
 
-/// A suite without a section `sweep` has a point for each condition. Throws Error where points are
-/// over a million.
+/// The plan of a suite; one without a section `sweep` has one point per condition. Throws Error if
+/// there are over a million points.
 SweepPlan planned(const Suite& suite);
 
-/// Value of a key at a point, as YAML; "" where the point leaves it as it is.
+/// Value of a key at a point, as YAML; "" if the point does not set it.
 std::string value_at(const SweepPoint& point, const std::string& key);
 
 /// The suite that has this point as its only condition.
 Suite suite_of_point(const SweepPlan& plan, std::uint64_t point);
 
-/// Seeds of each point at the end of each rung, from `first_seeds` on, `keep_one_in` times as many
-/// in each, the last with all that the suite has. One entry where it is not adaptive.
+/// Number of seeds per point at the end of each rung: it begins with `first_seeds` and grows by a
+/// factor of `keep_one_in` per rung, up to the suite's number in the last. One entry if the sweep
+/// is not adaptive.
 std::vector<std::uint64_t> rung_seeds(const SweepPlan& plan);
 
-/// How many points reach each rung, the first included.
+/// Number of points that reach each rung, including the first.
 std::vector<std::size_t> rung_points(const SweepPlan& plan);
 
-/// All runs of the rungs that are open: all closed ones and the next. By rung, then by point, then
-/// by seed.
+/// All runs of the closed rungs and of the next, open one. By rung, then by point, then by seed.
 std::vector<RunKey> runs_of(const SweepPlan& plan, const ClosedRungs& closed);
 
-/// Which of `runs` shard `shard` of `count` does, 1 ≤ shard ≤ count: every `count`-th from there
-/// on, so that shards cost alike.
+/// The part of `runs` for shard `shard` of `count`, 1 ≤ shard ≤ count: every `count`-th one, so
+/// that shards have similar costs.
 std::vector<RunKey> runs_of_shard(const std::vector<RunKey>& runs, std::size_t shard,
                                   std::size_t count);
 
-/// The points that go on after a rung whose points came out with these scores (less is better): the
-/// best one in `keep_one_in`, rounded up; of equal ones the first. Rising.
+/// The points kept after a rung with these scores (less is better): the best 1/`keep_one_in` of
+/// them, rounded up; ties go to the first. In ascending order.
 std::vector<std::uint64_t> best_of(const std::map<std::uint64_t, double>& scores,
                                    std::uint64_t keep_one_in);
 

@@ -9,13 +9,14 @@
 namespace tagfield {
 namespace {
 
-/// Sum and number of a run's errors.
+/// Sum and count of a run's errors.
 struct ErrorSum {
   double sum = 0.0;
   double count = 0.0;
 };
 
-/// Of a ratio of sums over independent runs (Cochran, Sampling Techniques, 1977, eq. 6.13).
+/// Standard error of a ratio of sums over independent runs (Cochran, Sampling Techniques, 1977, eq.
+/// 6.13).
 std::optional<double> mean_standard_error(const BenchEntry& entry) {
   std::vector<ErrorSum> sums;
   ErrorSum all;

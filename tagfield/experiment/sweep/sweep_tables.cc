@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-/// Seeds can be more than a database's whole numbers hold.
+/// Seeds can exceed the range of a database's integers.
 Cell whole_cell(std::uint64_t number) {
   if (number > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
     return Cell(std::to_string(number));
@@ -18,7 +18,7 @@ Cell whole_cell(std::uint64_t number) {
   return Cell(static_cast<std::int64_t>(number));
 }
 
-/// A number where it is one.
+/// A numeric cell if the value is a number.
 Cell setting_cell(const std::string& value) {
   if (value.empty()) return Cell();
   if (const auto number = parse_number(value)) return Cell(*number);
@@ -51,7 +51,7 @@ void append_place(const std::optional<Eigen::Vector3d>& p, std::vector<Cell>& ce
   for (Eigen::Index i = 0; i < 3; ++i) cells.push_back(p ? Cell((*p)[i]) : Cell());
 }
 
-/// As one of the columns of points.csv that `results` repeats.
+/// Without the first column of `results`, which repeats one of `points`.
 std::vector<Cell> without_first(const std::vector<Cell>& cells) {
   return {cells.begin() + 1, cells.end()};
 }

@@ -10,11 +10,11 @@
 
 namespace tagfield {
 
-/// The rows by what the sweep aims at, or else by mean error: the best first; those of an adaptive
-/// sweep that went furthest before the others.
+/// The rows sorted by the sweep's target, or else by mean error, best first; in an adaptive sweep
+/// those of later rungs come before the others.
 std::vector<const SweepRow*> best_first(const SweepResults& results);
 
-/// The best rows, some 20, and how many there are. Errors in mm.
+/// The numbers of points and runs, and about 20 of the best rows. Errors in mm.
 std::string sweep_to_text(const SweepResults& results);
 
 }  // namespace tagfield

@@ -66,14 +66,14 @@ TEST(NeesBand, OfIndependentErrorsIsThatOfChiSquare) {
 }
 
 TEST(NeesBand, OfErrorsThatAreAllTheSameIsThatOfOne) {
-  // 5 tags with one and the same error are one with 2 degrees of freedom: ‖·‖² is 2 for each pair.
+  // 5 tags with the same error count as one with 2 degrees of freedom: ‖·‖² is 2 for each pair.
   const NeesBand same = nees_band(5, 10.0, 5.0 * 5.0 * 2.0);
   const NeesBand one = nees_band(1, 2.0, 2.0);
   EXPECT_NEAR(same.low, one.low, 1e-12);
   EXPECT_NEAR(same.high, one.high, 1e-12);
 }
 
-/// Two tags whose errors share a part: the covariance's blocks are A and `share` A.
+/// Two tags whose errors share a component: the covariance's blocks are A and `share` A.
 Bounds two_tags(double share) {
   Bounds bounds;
   bounds.tags = {"a", "b"};
@@ -93,7 +93,7 @@ TEST(Correlation, AddsTheSquaresBetweenTags) {
 }
 
 TEST(Correlation, GivesTheVarianceOfTheMean) {
-  // Drawn: two tags that share a part, many runs of one mean each.
+  // Random samples: two tags with a shared error component, many runs with one mean each.
   const Bounds bounds = two_tags(0.8);
   const Eigen::MatrixXd root = bounds.covariance.llt().matrixL();
   const double correlation = correlation_of({{"a", 2}, {"b", 2}}, bounds);
@@ -113,7 +113,8 @@ TEST(Correlation, GivesTheVarianceOfTheMean) {
   EXPECT_NEAR(squares / kRuns - mean * mean, 2.0 * correlation / 4.0, 0.15);
 }
 
-/// Of many samples whose errors are `factor` times as large as was told, the share found so.
+/// Share of many samples, with errors `factor` times as large as stated, that are judged as
+/// `expected`.
 double share_found(double factor, Consistency expected) {
   constexpr int kSamples = 2000;
   constexpr int kTags = 20;

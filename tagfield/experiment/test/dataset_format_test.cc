@@ -47,7 +47,7 @@ std::vector<TagEstimate> located(const std::vector<TagRead>& reads,
   return locate_tags(reads, poses, options, diagnostics).estimates;
 }
 
-/// What our own records give.
+/// Estimates from the original records.
 const std::vector<TagEstimate>& expected() {
   static const auto estimates = located(warehouse().reads, warehouse().truth.antenna_poses);
   return estimates;
@@ -64,7 +64,7 @@ void expect_as_expected(const std::vector<TagEstimate>& estimates, double tolera
   }
 }
 
-/// Place of the read's antenna, which has a pose at each of its updates.
+/// Position of the read's antenna, which has a pose at each of its updates.
 Eigen::Vector3d place_of(const TagRead& read) {
   static const std::map<Time, Eigen::Vector3d> places = [] {
     std::map<Time, Eigen::Vector3d> all;
@@ -124,7 +124,7 @@ TEST(DatasetFormat, NoHeaderAndOddUnits) {
   expect_as_expected(located(dataset.reads, dataset.poses), 1e-3);
 }
 
-/// The run's time zero is put on a day in March, across midnight, a leap year.
+/// The run begins shortly before midnight on 29 February of a leap year, and ends in March.
 std::string iso_of(Time stamp) {
   const double seconds = to_seconds(stamp) + 86390.0;
   const int day = seconds < 86400.0 ? 29 : 1;
@@ -136,7 +136,7 @@ std::string iso_of(Time stamp) {
 }
 
 TEST(DatasetFormat, TwoTablesAndDates) {
-  constexpr double kStart = 1709164800.0 + 86390.0;  // 2024-02-29T00:00:00Z and 86390 s
+  constexpr double kStart = 1709164800.0 + 86390.0;  // 2024-02-29T00:00:00Z plus 86390 s
   std::string reads = "time,epc,port,phase_deg,rssi_dbm,frequency_hz\n";
   for (const TagRead& read : warehouse().reads) {
     reads += fmt::format("{},{},7,{:.5f},{},{}\n", iso_of(read.stamp), read.tag,
@@ -174,7 +174,7 @@ TEST(DatasetFormat, StandingAntennasHaveTheirPlacesInTheProfile) {
   EXPECT_EQ(dataset.poses[1].antenna, "2");
 }
 
-/// What follows the file's name in the complaint; "" if there is none.
+/// The error message without the file's name; "" if there is none.
 template <typename Read>
 std::string complaint(const std::string& path, const Read& read) {
   try {

@@ -80,11 +80,11 @@ TEST(BreakDown, HasARowForNoneEachAloneAllButEachAndAll) {
   ASSERT_EQ(costs.size(), 2 * effects_in(scenario).size() + 2);
   EXPECT_EQ(costs.front().set, EffectSet::kNone);
   EXPECT_EQ(costs.back().set, EffectSet::kAll);
-  // Without any effect the phase is exact, and so are the places, to the fit's rounding.
+  // Without any effect the phase is exact, and so are the positions, up to the fit's rounding.
   EXPECT_EQ(costs.front().located, 3U);
   ASSERT_TRUE(costs.front().error_m);
   EXPECT_LT(costs.front().error_m->max, 1e-4);
-  // All of them is the scenario itself.
+  // With all effects it is the scenario itself.
   const auto runs = run_seeds(scenario, 1, 1, {}, diagnostics);
   EXPECT_EQ(costs.back().reads, runs.front().recording.reads.size());
 }

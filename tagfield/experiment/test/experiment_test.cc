@@ -65,7 +65,7 @@ TEST(RunSeeds, ThreadsChangeNothing) {
   }
 }
 
-// Whoever is told how far it is needs no lock, and is not told less than before.
+// The progress callback needs no lock, and progress never decreases.
 TEST(RunSeeds, CountsTheFinishedSeedsOneByOne) {
   Diagnostics diagnostics;
   std::vector<double> shares;
@@ -134,7 +134,7 @@ TEST(RunSeeds, CorrectedPosesAreCloserToTheTruth) {
   Diagnostics diagnostics;
   const auto runs = run_seeds(scenario, 1, 2, {}, diagnostics);
   EXPECT_FALSE(runs[0].corrected_poses.empty());
-  EXPECT_TRUE(runs[1].corrected_poses.empty());  // As recordings.
+  EXPECT_TRUE(runs[1].corrected_poses.empty());  // Not kept, like recordings.
   EXPECT_TRUE(summarize(scenario, runs, 1.0, diagnostics).pose_error->corrected_rms_m);
 }
 

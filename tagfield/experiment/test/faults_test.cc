@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kRounds = 4000;
 
-/// Tags a, b and c, read in turn by antennas left, right and top; the RSSI tells the tag.
+/// Tags a, b and c, read in turn by antennas left, right and top; the RSSI identifies the tag.
 Recording three_tags() {
   Recording recording;
   const char* const antennas[] = {"left", "right", "top"};
@@ -49,7 +49,7 @@ Faults only(bool Faults::*fault) {
   return faults;
 }
 
-/// All but phases and RSSI, which some faults are about.
+/// Compares everything except phases and RSSI, which some faults change.
 void expect_else_the_same(const std::vector<TagRead>& reads) {
   const std::vector<TagRead> before = three_tags().reads;
   ASSERT_EQ(reads.size(), before.size());
@@ -71,7 +71,8 @@ TEST(Faults, RandomPhasesAreUniform) {
       ASSERT_LT(read.phase_rad, kTwoPi);
       sum += std::polar(1.0, multiple * read.phase_rad);
     }
-    // Of uniform angles |sum|² is exponential with the mean n; e^-16 of them are longer than this.
+    // For uniform angles |sum|² is exponential with the mean n; the probability to exceed this is
+    // e^-16.
     EXPECT_LT(std::abs(sum), 4.0 * std::sqrt(static_cast<double>(reads.size())));
   }
   EXPECT_EQ(reads[5].rssi_dbm, three_tags().reads[5].rssi_dbm);
@@ -89,7 +90,7 @@ TEST(Faults, RandomRssiIsUniform) {
     squares += std::pow(read.rssi_dbm + 55.0, 2);
   }
   const auto count = static_cast<double>(reads.size());
-  EXPECT_NEAR(sum / count, 0.0, 0.6);  // 5 of 11.5 / √12 000.
+  EXPECT_NEAR(sum / count, 0.0, 0.6);  // 5 times 11.5 / √12 000.
   EXPECT_NEAR(std::sqrt(squares / count), 40.0 / std::sqrt(12.0), 0.3);
   EXPECT_EQ(reads[5].phase_rad, three_tags().reads[5].phase_rad);
 }
@@ -134,7 +135,7 @@ TEST(Faults, WrongPhaseSignMirrorsPhases) {
 TEST(Faults, DuplicateEpcsMixTagsHalfAndHalf) {
   std::map<std::string, std::map<double, int>> counts;
   for (const TagRead& read : with(only(&Faults::duplicate_epcs))) ++counts[read.tag][read.rssi_dbm];
-  // Each ID has half of its own tag's reads, and half of those of the one before.
+  // Each ID has half of its own tag's reads, and half of those of the previous tag.
   const std::map<std::string, std::map<double, int>> expected = {
       {"a", {{-40.0, kRounds / 2}, {-42.0, kRounds / 2}}},
       {"b", {{-41.0, kRounds / 2}, {-40.0, kRounds / 2}}},
@@ -178,8 +179,8 @@ TEST(Faults, PosesOfAnotherRunAreNoRotationOfTheirOwn) {
   EXPECT_TRUE(place(2).isApprox(Eigen::Vector3d(1.9, 0.6, 3.0), 1e-12)) << place(2);
   EXPECT_TRUE(place(3).isApprox(Eigen::Vector3d(0.3, 0.4, 1.0), 1e-12)) << place(3);
   EXPECT_EQ(recording.truth.antenna_poses[0].X_WA.translation.x(), 0.0);
-  // No straight way keeps its length, whichever way it went: a turned one would fit the reads as
-  // well.
+  // No straight path keeps its length, whatever its direction: a merely rotated one would fit the
+  // reads as well.
   for (int degrees = 0; degrees < 180; ++degrees) {
     const double angle = radians(degrees);
     const std::vector<AntennaPose> moved = poses_of_another_run(
@@ -191,7 +192,7 @@ TEST(Faults, PosesOfAnotherRunAreNoRotationOfTheirOwn) {
 
 TEST(Faults, LeaveAPlaceToMethodsThatGoBySomethingElse) {
   const auto is_possible = [](bool Faults::*fault, const char* method) {
-    return has_true_place(only(fault), method);
+    return has_true_position(only(fault), method);
   };
   EXPECT_FALSE(is_possible(&Faults::random_phases, "hyperbola"));
   EXPECT_FALSE(is_possible(&Faults::constant_phases, "sar"));
@@ -204,8 +205,8 @@ TEST(Faults, LeaveAPlaceToMethodsThatGoBySomethingElse) {
   EXPECT_FALSE(is_possible(&Faults::poses_of_another_run, "joint"));
   Faults both = only(&Faults::random_phases);
   both.random_rssi = true;
-  EXPECT_FALSE(has_true_place(both, "fixed"));
-  EXPECT_TRUE(has_true_place({}, "hyperbola"));
+  EXPECT_FALSE(has_true_position(both, "fixed"));
+  EXPECT_TRUE(has_true_position({}, "hyperbola"));
 }
 
 }  // namespace

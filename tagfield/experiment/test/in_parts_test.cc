@@ -20,7 +20,7 @@ Eigen::Vector3d place_of(int tag) { return {0.3 * tag, 2.5 - 0.4 * tag, 1.0}; }
 
 std::string name_of(int tag) { return "tag" + std::to_string(tag); }
 
-/// One antenna goes round once: φ = 4π r/λ.
+/// One antenna moves once around a circle: φ = 4π r/λ.
 std::vector<AntennaPose> poses() {
   std::vector<AntennaPose> all;
   for (int i = 0; i < 210; ++i) {

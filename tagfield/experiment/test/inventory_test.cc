@@ -58,7 +58,7 @@ TEST(Inventory, TellsWhoWasReadByWhomAndWhen) {
   EXPECT_DOUBLE_EQ(inventory.readers[0].tags, 2.0);
   EXPECT_DOUBLE_EQ(inventory.readers[0].only, 1.0);
   EXPECT_DOUBLE_EQ(inventory.antennas[1].reads, 2.0);
-  // b belongs to the east door, and both antennas of the west one are one reader.
+  // b belongs to the east door, and both antennas of the west door are one reader.
   ASSERT_EQ(inventory.zones.size(), 2U);
   EXPECT_EQ(inventory.zones[1].zone, "near east");
   EXPECT_DOUBLE_EQ(inventory.zones[1].crossed, 1.0);
@@ -102,7 +102,7 @@ TEST(Inventory, OfARunHasNoPlaces) {
   const Summary summary = summarize(scenario, runs, 1.0, diagnostics);
   EXPECT_EQ(summary.method, "none");
   ASSERT_TRUE(summary.inventory);
-  // By the paper's model all within 7 m are read.
+  // In the paper's model all tags within 7 m are read.
   EXPECT_DOUBLE_EQ(summary.inventory->read, 4.0);
   EXPECT_EQ(count(summary, Verdict::kLocated), 0U);
 }

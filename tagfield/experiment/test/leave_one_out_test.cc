@@ -13,7 +13,7 @@ AntennaSpec at(const std::string& name, double x) {
   return spec;
 }
 
-/// By the paper's model an antenna reads 7 m far.
+/// In the paper's model an antenna reads up to 7 m.
 Scenario three_in_a_row() {
   Scenario scenario;
   scenario.duration_s = 0.5;
@@ -30,7 +30,7 @@ Scenario three_in_a_row() {
 TEST(LeaveOneOut, SaysWhatEachAntennaIsWorth) {
   const auto rows = leave_one_out(three_in_a_row(), 1, 2, {});
   ASSERT_EQ(rows.size(), 3U);
-  EXPECT_DOUBLE_EQ(rows[0].read, 4.0);  // "middle" reads what "left" does.
+  EXPECT_DOUBLE_EQ(rows[0].read, 4.0);  // "middle" reads the same tags as "left".
   EXPECT_DOUBLE_EQ(rows[1].read, 4.0);
   EXPECT_EQ(rows[2].antenna, "right");
   EXPECT_DOUBLE_EQ(rows[2].read, 3.0);

@@ -47,10 +47,10 @@ TEST(NavigationSummary, CountsWhatIsTrulyReached) {
 
 TEST(NavigationSummary, SumsFindingsUpBySort) {
   std::vector<SeedRun> runs{run_of(1), run_of(2)};
-  runs[0].navigation->findings = {{PlaceLoss::kStart, true, 10.0, 2.0, 0},
-                                  {PlaceLoss::kCarried, true, 20.0, 4.0, 1}};
-  runs[1].navigation->findings = {{PlaceLoss::kStart, true, 30.0, 6.0, 0},
-                                  {PlaceLoss::kCarried, false, std::nullopt, 0.0, 0}};
+  runs[0].navigation->findings = {{PositionLoss::kStart, true, 10.0, 2.0, 0},
+                                  {PositionLoss::kCarried, true, 20.0, 4.0, 1}};
+  runs[1].navigation->findings = {{PositionLoss::kStart, true, 30.0, 6.0, 0},
+                                  {PositionLoss::kCarried, false, std::nullopt, 0.0, 0}};
   runs[1].navigation->collisions = 2;
   runs[1].navigation->closest_m = 0.0;
   const NavigationSummary summary = navigation_summary(runs, world());
@@ -69,7 +69,7 @@ TEST(NavigationSummary, SumsFindingsUpBySort) {
   EXPECT_EQ(summary.walls_found, 1.0);
 }
 
-/// Random starts and goals: each seed has its own, and threads change nothing.
+/// Random starts and goals: each seed has its own, and the number of threads makes no difference.
 TEST(RunSeeds, OfRobotsThatDriveByThemselves) {
   Scenario scenario = small_drive();
   own_navigation(scenario).start = StartBelief::kRandom;
@@ -89,11 +89,11 @@ TEST(RunSeeds, OfRobotsThatDriveByThemselves) {
     ASSERT_EQ(run.goals.size(), 1U);
     EXPECT_EQ(run.goals[0].state, DriveState::kReached) << run.goals[0].reason;
     ASSERT_EQ(run.findings.size(), 1U);
-    EXPECT_EQ(run.findings[0].why, PlaceLoss::kStart);
+    EXPECT_EQ(run.findings[0].why, PositionLoss::kStart);
     EXPECT_EQ(run.collisions, 0);
     EXPECT_EQ(run.position_errors_m, together[i].navigation->position_errors_m);
   }
-  // What a log keeps of another seed than the first is all that the summary asks of it.
+  // What a log keeps of seeds other than the first is all that the summary needs.
   std::vector<SeedRun> kept = {alone[0], kept_seed_in(to_json_line(alone[1], {}), {}).run};
   EXPECT_EQ(to_json(summarize(scenario, kept, 1.0, {}, &known)),
             to_json(summarize(scenario, alone, 1.0, {}, &known)));

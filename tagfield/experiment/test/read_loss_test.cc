@@ -41,7 +41,7 @@ TEST(ReadLoss, LosesItsShareOneByOne) {
 }
 
 TEST(ReadLoss, BurstsTakeTheShareOfAPoissonProcess) {
-  // About 2000 bursts; the share of a time that is covered is 1 − e^(−b/T).
+  // About 2000 bursts; the share of time covered is 1 − e^(−b/T).
   const std::vector<TagRead> reads = reads_of(20'000.0, 5.0);
   EXPECT_NEAR(share_of(lost_reads(reads, {0.0, 1.0, 10.0}, 3)), 1.0 - std::exp(-0.1), 0.01);
   EXPECT_NEAR(share_of(lost_reads(reads, {0.3, 1.0, 10.0}, 3)), 1.0 - 0.7 * std::exp(-0.1), 0.01);
@@ -50,7 +50,7 @@ TEST(ReadLoss, BurstsTakeTheShareOfAPoissonProcess) {
 TEST(ReadLoss, BurstsAreAsLongAsTold) {
   const std::vector<TagRead> reads = reads_of(20'000.0, 20.0);
   const std::vector<bool> lost = lost_reads(reads, {0.0, 2.0, 500.0}, 5);
-  // Both tags are lost at once, and hardly any two bursts overlap.
+  // Both tags are lost simultaneously, and hardly any bursts overlap.
   std::vector<int> lengths;
   int length = 0;
   for (std::size_t i = 0; i < reads.size(); i += 2) {

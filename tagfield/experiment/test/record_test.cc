@@ -83,10 +83,10 @@ TEST(Records, AreJudgedByTheirBound) {
   judge_by(bounds, run);
   ASSERT_TRUE(run.tags[0].bound);
   EXPECT_NEAR(run.tags[0].bound->variance_m2, 0.0008, 1e-12);
-  // The mean of Rayleigh's distribution.
+  // The mean of the Rayleigh distribution.
   EXPECT_NEAR(run.tags[0].bound->mean_error_m, 0.02 * std::sqrt(std::acos(-1.0) / 2.0), 1e-9);
   EXPECT_FALSE(run.tags[1].bound);
-  // "a" and the reference tag, which is none here.
+  // From "a" and the reference tag, which counts as an ordinary one here.
   EXPECT_NEAR(run.nees_correlation, 4.0, 1e-12);
 }
 
@@ -95,15 +95,15 @@ TEST(Records, SayWhichClaimsAreFalse) {
   run.method = "hyperbola";
   run.tags = records({});
   judge_claims({}, run);
-  EXPECT_TRUE(run.tags[0].false_claim);   // 0.5 m off, where 0.02 m were expected.
-  EXPECT_FALSE(run.tags[1].false_claim);  // Ambiguous: no place was claimed.
+  EXPECT_TRUE(run.tags[0].false_claim);   // Error 0.5 m, expected 0.02 m.
+  EXPECT_FALSE(run.tags[1].false_claim);  // Ambiguous: no position was claimed.
   EXPECT_TRUE(run.tags[2].moved);
   EXPECT_TRUE(run.tags[2].false_claim);
   EXPECT_FALSE(run.tags[4].false_claim);
   run.tags[0].expected_error = 0.11;
   judge_claims({}, run);
   EXPECT_FALSE(run.tags[0].false_claim);
-  run.tags[0].expected_error = 0.0;  // Of a method that tells none.
+  run.tags[0].expected_error = 0.0;  // From a method that states none.
   judge_claims({}, run);
   EXPECT_FALSE(run.tags[0].false_claim);
   Faults faults;

@@ -129,7 +129,7 @@ TEST_F(RecordedRun, LoadsReadsAndPlaces) {
   EXPECT_EQ(run.reads.size(), 3U);
   EXPECT_EQ(run.believed_poses.size(), 3U);
   ASSERT_EQ(run.truth.tag_positions.size(), 2U);
-  EXPECT_EQ(run.truth.tag_positions[1].p_WT, Eigen::Vector3d(3, 4, 0.5));  // As the antennas.
+  EXPECT_EQ(run.truth.tag_positions[1].p_WT, Eigen::Vector3d(3, 4, 0.5));  // The antennas' height.
   ASSERT_EQ(diagnostics.warnings().size(), 1U);
   EXPECT_NE(diagnostics.warnings()[0].find("1 tag in the reads (such as 'stranger'"),
             std::string::npos)

@@ -45,7 +45,7 @@ class LogFile {
   [[nodiscard]] std::vector<Kept> read(Diagnostics& diagnostics) const {
     std::vector<Kept> runs;
     read_result_log(
-        path(), kLogHead, diagnostics, [&](const LoggedRun& run, const LogPlace& place) {
+        path(), kLogHead, diagnostics, [&](const LoggedRun& run, const LogLocation& place) {
           EXPECT_EQ(run.cpu_s, 0.5);
           const std::string line = read_text_file(path()).substr(place.offset, place.length);
           EXPECT_EQ(logged_run_in(line, {}).key, run.key);
@@ -87,7 +87,7 @@ TEST(ResultLog, GivesBackWhatWasAdded) {
   EXPECT_EQ(file.read().back().body, "more");
 }
 
-/// Wherever a kill cuts the file, what was whole before remains, and the rest can be added again.
+/// Wherever a kill truncates the file, complete lines remain, and the rest can be added again.
 RC_GTEST_PROP(ResultLog, IsWholeWhereverItIsCut, ()) {
   const LogFile file;
   file.write(kLoggedRuns);
@@ -101,7 +101,7 @@ RC_GTEST_PROP(ResultLog, IsWholeWhereverItIsCut, ()) {
   RC_ASSERT(file.read() == kLoggedRuns);
 }
 
-/// No byte of a line can change without being noticed.
+/// No byte of a line can change unnoticed.
 RC_GTEST_PROP(ResultLog, LeavesOutDamagedLines, ()) {
   const LogFile file;
   file.write(kLoggedRuns);

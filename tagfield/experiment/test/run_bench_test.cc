@@ -19,7 +19,7 @@
 namespace tagfield {
 namespace {
 
-/// Says that each tag is at one place, with the covariance of errors of 1 m.
+/// Locates every tag at the same position, with the covariance of errors of 1 m.
 Method constant_method() {
   return {"constant", "always the same place",
           [](const LocalizationProblem& problem, int threads, Diagnostics& diagnostics) {
@@ -143,7 +143,7 @@ TEST(RunBench, ToldPoseErrorReachesTheMethods) {
   suite.conditions[0].believed = UnknownPoseError{};
   run_bench(suite, methods, on_threads(1));
   EXPECT_FALSE(told);
-  // A method's own settings go before the condition's.
+  // A method's own settings override the condition's.
   suite.conditions[0].believed = {};
   suite.methods[0].localization = {{"localization.pose_error", "{sigma_m: 0.07}"}};
   run_bench(suite, methods, on_threads(1));
@@ -167,7 +167,7 @@ TEST(RunBench, FaultsReachTheMethodsAndTheJudge) {
   suite.conditions.resize(1);
   const Bench sound = run_bench(suite, methods, on_threads(1));
   EXPECT_GT(phases.size(), 10U);
-  EXPECT_EQ(statistics_of(sound.entries[0]).false_claims, 0U);  // It expects no error.
+  EXPECT_EQ(statistics_of(sound.entries[0]).false_claims, 0U);  // It states no expected error.
   EXPECT_TRUE(sound.conditions[0].faults.empty());
   phases.clear();
   suite.conditions[0].fault = Faults{};
@@ -183,8 +183,8 @@ TEST(RunBench, FaultsReachTheMethodsAndTheJudge) {
   EXPECT_EQ(faulty.conditions[0].no_bound, "the reads are faulty");
 }
 
-/// A tag at (3, 4) that the constant method takes to be at (2, 0), as there are two reads of it;
-/// and a stranger.
+/// A tag at (3, 4), which the constant method locates at (2, 0), as there are two reads of it; and
+/// an unknown tag.
 RecordedReads two_reads(const SuiteRecording& /*recording*/) {
   RecordedReads tables;
   for (const char* tag : {"a", "stranger", "a"}) {
@@ -212,7 +212,7 @@ TEST(RunBench, RecordingsAreJudgedByTheirTruth) {
   suite.conditions.resize(1);
   suite.conditions[0].name = "one";
   suite.conditions[0].recording = SuiteRecording{};
-  suite.conditions[0].recording->reads = truth;  // It only has to be there.
+  suite.conditions[0].recording->reads = truth;  // It only has to exist.
   suite.conditions[0].recording->truth = truth;
   Diagnostics diagnostics;
   const Bench bench = run_bench(prepare(suite, with_constant(), diagnostics, two_reads), {});

@@ -106,7 +106,7 @@ TEST_F(RunStoreTest, KeptSeedsMakeTheSameSummary) {
     run_seeds(scenario, 3, 2, {}, diagnostics_, nullptr, &store);
   }
   RunStore store(log, kStoreHead, Resume::kYes, diagnostics_);
-  EXPECT_EQ(store.found(), 1U);  // The first seed is always run again.
+  EXPECT_EQ(store.found(), 1U);  // The first seed is always rerun.
   Diagnostics warnings;
   const auto resumed = run_seeds(scenario, 3, 4, {}, warnings, nullptr, &store);
   EXPECT_EQ(to_json(summarize(scenario, resumed, 1.0, warnings)),
@@ -153,7 +153,7 @@ TEST_F(RunStoreTest, SaysWhatIsDroppedWithoutResume) {
   EXPECT_EQ(store.find({0, 1}), nullptr);
 }
 
-/// Whatever results follow from makes another hash, and nothing else does.
+/// Any change of what results depend on changes the hash, and nothing else does.
 TEST_F(RunStoreTest, HashFollowsTheFiles) {
   const std::string scenario = path("a.yaml");
   const std::string world = path("w.sdf");
@@ -186,7 +186,7 @@ TEST_F(RunStoreTest, HashFollowsTheFiles) {
   EXPECT_NE(hash_of({}, {"a*"}), hash);
   write("20", "1 1 1");
   EXPECT_NE(hash_of({}, {}), hash);
-  write("10", "1 1 2");  // In a file that only the world names.
+  write("10", "1 1 2");  // In a file that is named only by the world.
   EXPECT_NE(hash_of({}, {}), hash);
 }
 

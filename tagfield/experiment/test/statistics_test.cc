@@ -81,7 +81,7 @@ TEST(Statistics, RatioIsOfSumsOverTheSameTags) {
 TEST(Statistics, CountFalseClaimsAndCompareWithWhatWasExpected) {
   BenchEntry entry = some_entry();
   EXPECT_EQ(statistics_of(entry).false_claims, 0U);
-  EXPECT_FALSE(statistics_of(entry).error_over_expected);  // No error was expected.
+  EXPECT_FALSE(statistics_of(entry).error_over_expected);  // No expected error was stated.
   entry.runs[0].tags[0].expected_error = 0.01;             // A third of 0.03.
   entry.runs[0].tags[1].expected_error = 0.1;              // A quarter of 0.4.
   entry.runs[0].tags[1].false_claim = true;

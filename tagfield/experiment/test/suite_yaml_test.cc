@@ -53,7 +53,7 @@ std::string complaint_of(const std::string& text, bool prepared = false) {
   return "";
 }
 
-/// A suite with these conditions, of which the first stands in line 4.
+/// A suite with these conditions, of which the first is on line 4.
 std::string with_conditions(const std::string& conditions) {
   return "scenario: " + kScenario + "\nmethods: [hyperbola]\nconditions:\n" + conditions;
 }
@@ -193,7 +193,7 @@ TEST(SuiteYaml, ReadsRecordings) {
   EXPECT_EQ(a.area.side, TagSide::kPlusY);
   EXPECT_EQ(a.area.box.value().min(), Eigen::Vector2d(0, 1));
   EXPECT_EQ(suite.conditions[1].recording.value().format, folder + "/own/form.yaml");
-  // Nothing of it is there, which is no error.
+  // None of the files exist, which is not an error.
   Diagnostics diagnostics;
   EXPECT_TRUE(prepare(suite, built_in_methods(), diagnostics).conditions.empty());
   ASSERT_EQ(diagnostics.warnings().size(), 2U);

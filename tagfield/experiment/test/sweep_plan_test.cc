@@ -74,7 +74,7 @@ RC_GTEST_PROP(SweepPlan, LatinHypercubeHasOnePointInEachStratum, ()) {
     std::sort(values.begin(), values.end());
     for (std::size_t i = 0; i < points; ++i) {
       const double stratum = 8.0 / static_cast<double>(points);
-      // Values are told with six digits.
+      // Values are written with six digits.
       RC_ASSERT(values[i] >= -3.0 + stratum * static_cast<double>(i) - 1e-5);
       RC_ASSERT(values[i] <= -3.0 + stratum * static_cast<double>(i + 1) + 1e-5);
     }
@@ -90,11 +90,12 @@ TEST(SweepPlan, LatinHypercubeKeysAreNotTiedTogether) {
     sum += (parse_number(value_at(point, "a")).value() - 0.5) *
            (parse_number(value_at(point, "b")).value() - 0.5);
   }
-  // Of independent keys the correlation has a standard deviation of 1/√2000; five of them.
+  // For independent keys the correlation has a standard deviation of 1/√2000; this is five times
+  // that.
   EXPECT_LT(std::abs(12.0 * sum / 2000.0), 5.0 / std::sqrt(2000.0));
 }
 
-/// Each run is in one shard, and shards differ by one run at most.
+/// Each run is in one shard, and the sizes of shards differ by at most one.
 RC_GTEST_PROP(SweepPlan, ShardsTakeEachRunOnce, ()) {
   const SweepPlan plan = planned(suite_with(list_of(*rc::gen::inRange<std::size_t>(1, 30))));
   const std::vector<RunKey> runs = runs_of(plan, {});

@@ -44,8 +44,8 @@ TEST(WinnerOf, CountsTagsThatAreFarOffAsNotRight) {
 }
 
 TEST(WinnerOf, NamesThoseThatChanceMayHavePutBehindIt) {
-  // By hand: differences to `a` are ±2 mm with a mean of 0.5 mm and a standard error of 0.96 mm for
-  // `b`, and all 1 mm for `c`.
+  // Computed by hand: differences from `a` are ±2 mm and 0, with a mean of 0.5 mm and a standard
+  // error of 0.96 mm, for `b`, and all 1 mm for `c`.
   const BenchEntry a = entry_of("a", {0.010, 0.010, 0.010, 0.010});
   const BenchEntry b = entry_of("b", {0.012, 0.008, 0.012, 0.010});
   const BenchEntry c = entry_of("c", {0.011, 0.011, 0.011, 0.011});

@@ -79,7 +79,7 @@ TEST(FieldDriver, AntennasAreDueByTheirRates) {
             (std::vector<std::string>{"slow 0.000000000", "fast 0.100000000", "fast 0.200000000",
                                       "slow 0.250000000", "fast 0.300000000", "fast 0.400000000",
                                       "fast 0.500000000", "slow 0.500000000"}));
-  driver.go_on(at(0.0));  // Time went back.
+  driver.go_on(at(0.0));  // Time jumped back.
   EXPECT_EQ(driver.next_due(), at(0.0));
 }
 
@@ -94,7 +94,7 @@ TEST(FieldDriver, StampsThatAreToldGoBeforeTheRateAndEnd) {
   EXPECT_EQ(driver.next_due(), std::nullopt);
 }
 
-// Against a plain map: applying the steps' lists in their stated order gives what is there.
+// Against a plain map: applying the steps' lists in their documented order gives the current tags.
 RC_GTEST_PROP(FieldDriver, StepsAddUpToWhatIsThere, ()) {
   FieldDriver driver;
   std::map<std::string, std::uint32_t> present;

@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-/// Keeps what it would draw.
+/// Records the times at which it would draw.
 class Picture final : public FieldPicture {
  public:
   using FieldPicture::FieldPicture;
@@ -72,7 +72,7 @@ TEST(ReadColor, GoesFromFaintBlueOverGreenToFullRed) {
 TEST_F(PictureOfAField, IsDrawnAtItsIntervals) {
   for (int i = 0; i <= 15; ++i) step(i / 15.0);
   EXPECT_EQ(picture->drawn.size(), 2U);  // At 0 and at 8/15 s.
-  step(0.0);                             // The clock was set back.
+  step(0.0);                             // Time jumped back.
   EXPECT_EQ(picture->drawn.size(), 3U);
 }
 

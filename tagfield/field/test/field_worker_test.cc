@@ -9,9 +9,9 @@
 namespace tagfield {
 namespace {
 
-constexpr int kSteps = 200;  // More than may wait.
+constexpr int kSteps = 200;  // More than fit into the queue.
 
-/// Keeps what it is told, without a lock: only the worker's thread may tell it anything.
+/// Records reads without a lock: only the worker's thread may call it.
 struct Log final : ReadListener {
   std::vector<Time> stamps;
   void on_read(const TagRead& read) override { stamps.push_back(read.stamp); }
@@ -23,7 +23,7 @@ Outlets outlets_of(const std::shared_ptr<Log>& log) {
   return outlets;
 }
 
-/// One tag before one antenna, updated at 10 Hz.
+/// One tag in front of one antenna, which updates at 10 Hz.
 FieldStep step(const std::shared_ptr<const FieldAntenna>& gate, int number) {
   FieldStep step;
   step.stamp = time_from_seconds(0.1 * number);
@@ -77,7 +77,7 @@ TEST(FieldWorker, ComplainsOfAStepAndTakesTheNext) {
     FieldWorker worker(outlets_of(log), console);
     const auto antenna = gate();
     worker.post(step(antenna, 0));
-    worker.post(step(antenna, 0));  // The tag is there already.
+    worker.post(step(antenna, 0));  // The tag is already present.
     worker.post(step(antenna, 1));
   }
   ASSERT_EQ(complaints.size(), 1U);

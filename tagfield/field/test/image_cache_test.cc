@@ -70,7 +70,7 @@ TEST(ImageCache, KeepsToItsBytes) {
   for (std::uint32_t number = 0; number < 3; ++number) {
     cache.find(scene, number, kHere, of_order(1));
   }
-  // The first may still begin; then it is full.
+  // The first still fits; then the cache is full.
   EXPECT_NE(cache.find(scene, 0, kHere, of_order(1)), nullptr);
   EXPECT_EQ(cache.find(scene, 1, kHere, of_order(1)), nullptr);
   cache.forget(0);

@@ -88,7 +88,7 @@ std::vector<AntennaParameters> hopping(const std::vector<double>& port_dwells_s,
   return antennas;
 }
 
-/// Time of each antenna on each channel from `begin_s` on, by steps of 1 ms.
+/// Time of each antenna on each channel from `begin_s` on, in steps of 1 ms.
 std::map<std::pair<std::string, std::size_t>, int> times_on_channels(
     const std::vector<AntennaParameters>& antennas, double begin_s, double duration_s) {
   const PortCycle cycle = port_cycles(antennas).front();
@@ -101,8 +101,8 @@ std::map<std::pair<std::string, std::size_t>, int> times_on_channels(
 }
 
 TEST(PortCycles, BringEachPortToEachChannelForAsLong) {
-  // Turns as long as a channel's dwell and a sequence of whole cycles: each port would stay with
-  // every second or fourth of its channels.
+  // Turns as long as a channel's dwell time and a sequence that is a multiple of the cycle: each
+  // port would only use every second or fourth channel.
   for (const std::size_t ports : {2U, 4U}) {
     const auto antennas = hopping(std::vector<double>(ports, 0.2), 8, 0.2);
     const double all_s = 8 * 0.2 * static_cast<double>(ports);
@@ -138,7 +138,7 @@ RC_GTEST_PROP(NextTurn, BeginsWhereTheAntennaIsOnTurnAndWasNotBefore, ()) {
   for (const AntennaParameters& one : antennas) {
     const Time turn = *next_turn(cycle, one.name, now);
     RC_ASSERT(antenna_on_turn(cycle, turn) == one.name);
-    // From change to change nobody else is passed over.
+    // Stepping from change to change skips no other antenna.
     for (Time t = now; t < turn; t = *next_change({cycle}, t)) {
       RC_ASSERT(antenna_on_turn(cycle, t) != one.name);
       RC_ASSERT(antenna_on_turn(cycle, *next_change({cycle}, t) - Duration(1)) ==

@@ -21,7 +21,7 @@ std::shared_ptr<const RadioWorld> free_space() {
   return std::make_shared<const RadioWorld>(radio_world(Scene{}, {}, diagnostics));
 }
 
-/// Isotropic ends in free space, without noise; what is read is then known in closed form.
+/// Isotropic ends in free space, without noise, so that the reads are known in closed form.
 RadioModel plain_model() {
   RadioModel model;
   model.effects = no_effects();
@@ -68,7 +68,7 @@ TagPopulation row_of_tags(int count, double spacing_m) {
 
 Time at_update(int number) { return time_from_seconds(number / 15.0); }
 
-/// Distance at which −15 dBm come in of 30 dBm: 20 log10(4πd/λ) = 45.
+/// Distance at which −15 dBm are received of 30 dBm: 20 log10(4πd/λ) = 45.
 double range_of_plain_link() {
   return wavelength(kFrequency) / (4.0 * kPi) * std::pow(10.0, 45.0 / 20.0);
 }
@@ -127,7 +127,7 @@ TEST(RadioAir, InventoryStampsEachReadAndMeasuresItWhereTheAntennaWasThen) {
     }
   }
   EXPECT_EQ(seen.size(), 5U);
-  EXPECT_GT(stamps.size(), 150U);  // No two reads at once.
+  EXPECT_GT(stamps.size(), 150U);  // No two simultaneous reads.
 }
 
 TEST(RadioAir, TagsThatAreOutOfPowerAreNotRead) {
@@ -237,7 +237,7 @@ TEST(RadioAir, AntennaThatIsNowhereReadsNothing) {
   EXPECT_THROW(air.update("a", {}, at_update(0), tags, replies), Error);
 }
 
-/// What reader "r" reads in a row of tags with another reader at the row's end.
+/// The tags that reader "r" reads in a row of tags with another reader at the end of the row.
 std::set<std::uint32_t> read_beside_another(const RadioModel& model, const Vector3d& p_other) {
   RadioAir air(free_space());
   air.add(antenna("other", "z", model), 1);
@@ -260,16 +260,16 @@ std::set<std::uint32_t> read_beside_another(const RadioModel& model, const Vecto
 TEST(RadioAir, TagsInTwoFieldsAnswerTheOneThatIsStrongEnough) {
   RadioModel model = plain_model();
   const Vector3d p_other(5.0, 0.0, 0.0);
-  // The range is 4.9 m: all are in both fields.
+  // The range is 4.9 m: all tags are in both fields.
   EXPECT_EQ(read_beside_another(model, p_other).size(), 9U);
   model.interference = true;
   model.effects.interference = true;
-  model.gen2 = Gen2Reader{};  // Of which only the link counts, as the effect is off.
+  model.gen2 = Gen2Reader{};  // Only its link counts, as the effect is off.
   model.hardware.noise_figure_db = 0.0;
   model.plan = known_plan("etsi_low");
-  // Fields go with 1/d²: (5 − d)/d ≥ 10^(6.94/20) = 2.223 up to d = 1.551 m. Replies from there are
-  // −44 dBm and more, and what gets through of the other reader 5 m off:
-  // 30 − 45.2 dBm − 6 dB for the same carrier in FM0, so that Miller is what it takes.
+  // Power density is proportional to 1/d²: (5 − d)/d ≥ 10^(6.94/20) = 2.223 up to d = 1.551 m.
+  // Replies from there are at least −44 dBm, and the received power of the other reader at 5 m is
+  // 30 − 45.2 dBm − 6 dB on the same carrier with FM0, so that Miller is required.
   EXPECT_EQ(read_beside_another(model, p_other), (std::set<std::uint32_t>{0, 1, 2}));
   model.gen2->link.encoding = Encoding::kFm0;
   EXPECT_EQ(read_beside_another(model, p_other), (std::set<std::uint32_t>{}));
@@ -293,7 +293,7 @@ TEST(RadioAir, OtherReadersMakePhasesNoisierInSlotsToo) {
     for (int i = 0; i < 60; ++i) {
       air.update("a", {}, at_update(i), tags, replies);
       for (const TagReply& reply : replies) {
-        if (i < 3) continue;  // Before both were heard.
+        if (i < 3) continue;  // Before both were received.
         const double error =
             wrap_to_pi(reply.phase_rad - 4.0 * kPi * reply.distance_m / wavelength(kFrequency));
         sum += error * error;
@@ -315,7 +315,8 @@ TEST(RadioAir, OtherReadersMakePhasesNoisierInSlotsToo) {
 }
 
 TEST(RadioAir, CoupledTagsTakeInWhatTheTwoPortGives) {
-  // Two upright dipoles as far from the antenna: the same field at both, h/(1 + z) at each chip.
+  // Two vertical dipoles at equal distances from the antenna: the same field at both, h/(1 + z) at
+  // each chip.
   RadioModel model = plain_model();
   model.tag_coupling = true;
   model.effects.coupling = true;

@@ -23,7 +23,7 @@ RadioWorld empty_world() {
   return radio_world(Scene{}, {}, diagnostics);
 }
 
-/// An antenna of 6 dBi that radiates `eirp_dbm`, circular, and no other effect.
+/// A circularly polarized antenna of 6 dBi that radiates `eirp_dbm`, without other effects.
 RadioModel antenna(double eirp_dbm, double frequency_hz) {
   RadioModel model;
   model.effects = no_effects();
@@ -62,7 +62,7 @@ TEST_P(PublishedRange, IsWhereTheChipGetsItsSensitivity) {
   const RadioWorld world = empty_world();
   const RadioModel model = antenna(eirp, frequency);
   const TagModel kind = tag(2.0, -20.0);
-  // The figures are for a polarization loss of 3 dB, which is 10 log10 2 here: 0.12 % of the range.
+  // The figures assume a polarization loss of 3 dB, which is 10 log10 2 here: 0.12 % of the range.
   EXPECT_GE(tag_margin_db(link_at(model, kind, world, range - 0.025), kind), 0.0);
   EXPECT_LT(tag_margin_db(link_at(model, kind, world, range + 0.01), kind), 0.0);
 }
@@ -95,7 +95,7 @@ TEST(Reply, PhaseGrowsByTheRoundTrip) {
 }
 
 TEST(Reply, WithoutEffectsHasThePapersMean) {
-  // Eq. (5) with gain G is 40 log10(Gλ/(4πD)): a power of 40 log10 G over the plain link.
+  // Eq. (5) with gain G is 40 log10(Gλ/(4πD)): a power of 40 log10 G above the plain link.
   const RadioWorld world = empty_world();
   RadioModel model = antenna(0.0, 865.7e6);
   model.effects = no_effects();
@@ -143,14 +143,14 @@ TEST(Doppler, IsThePhasesRateOfChangeAmongManyPaths) {
   const double before = reply_of(link_from(-kShort * v), 0.0, v).phase_rad;
   const double after = reply_of(link_from(kShort * v), 0.0, v).phase_rad;
   const double by_difference = -wrap_to_pi(after - before) / (2.0 * kShort) / kTwoPi;
-  // Patterns and polarization turn a little with the direction, which the slope leaves out.
+  // Patterns and polarization change slightly with the direction, which the slope ignores.
   EXPECT_NEAR(reply_of(link_from(Vector3d::Zero()), 0.0, v).doppler_hz, by_difference, 0.15);
 }
 
 TEST(Receiver, OfItsOwnMakesTheProductOfTwoLinks) {
   const RadioWorld world = empty_world();
   RadioModel model = antenna(35.15, 865.7e6);
-  model.antenna.polarization = PolarizationKind::kLinear;  // The same towards both places.
+  model.antenna.polarization = PolarizationKind::kLinear;  // The same towards both positions.
   model.X_AR = from_translation({0.0, 1.0, 0.0});
   const RadioLink link = link_at(model, tag(2.0, -20.0), world, 2.0);
   const double lambda = wavelength(865.7e6);
@@ -159,7 +159,7 @@ TEST(Receiver, OfItsOwnMakesTheProductOfTwoLinks) {
   EXPECT_NEAR(wrap_to_pi(std::arg(link.forward * link.backward) - expected), 0.0, 0.02);
 }
 
-/// Two walls of metal, 3 m to both sides of the way.
+/// Two metal walls, 3 m from the path on both sides.
 RadioWorld walls() {
   Scene scene;
   for (const double y : {-3.5, 3.5}) {
@@ -206,7 +206,7 @@ TEST(MovingBodies, TakeOfEachPathWhatTheyTakeOfItsLegs) {
   }
   const TagEnd end{kind, X_WT, 7};
   EXPECT_LT(std::abs(link_of(view, end, paths).forward - sum), 1e-12);
-  // From the tag's images it is the same, with the paths turned round.
+  // The tag's images give the same result, with reversed paths.
   const ImageSet images = images_of(world.scene, X_WT.translation, view.tracing);
   const TagEnd with_images{kind, X_WT, 7, &images};
   EXPECT_LT(std::abs(link_of(view, with_images, paths).forward - sum), 1e-9);
@@ -220,7 +220,7 @@ bool is_equal(const RadioLink& one, const RadioLink& other) {
          one.phase_slope_W == other.phase_slope_W;
 }
 
-RC_GTEST_PROP(WayMemory, ChangesNoLink, ()) {
+RC_GTEST_PROP(PathCache, ChangesNoLink, ()) {
   static const RadioWorld world = walls();
   RadioModel model = antenna(30.0, 915e6);
   model.effects.occlusion = true;
@@ -233,10 +233,10 @@ RC_GTEST_PROP(WayMemory, ChangesNoLink, ()) {
   MovingBody body;
   body.material = find_material(known_materials(), "metal");
   body.half_m = {0.2, 0.3, 0.9};
-  WayMemory there;
-  WayMemory back;
+  PathCache there;
+  PathCache back;
   std::vector<RadioPath> paths;
-  // What of the link changes from one time to the next: often nothing.
+  // The properties of the link that change from one time to the next: often none.
   for (int time = 0; time < 30; ++time) {
     const int turn = *rc::gen::element(0, 0, 0, 1);
     const RigidTransform X_WA =
@@ -253,12 +253,12 @@ RC_GTEST_PROP(WayMemory, ChangesNoLink, ()) {
   }
 }
 
-TEST(WayMemory, KeepsGainsOfEndsAtRestByCarrier) {
+TEST(PathCache, KeepsGainsOfEndsAtRestByCarrier) {
   const RadioWorld world = walls();
   RadioModel model = antenna(30.0, 915e6);
   model.effects.occlusion = true;
   const TagModel kind = tag(2.0, -20.0);
-  WayMemory memory;
+  PathCache memory;
   std::vector<RadioPath> paths;
   for (int time = 0; time < 200; ++time) {
     const double frequency_hz = 902e6 + 0.25e6 * (time % 100);
@@ -293,7 +293,7 @@ TEST(Diffuse, HasThePowerOfItsKFactor) {
     direct += std::norm(alone);
     rest += std::norm(h - alone);
   }
-  // Relative error of a mean of so many exponential draws: 1.6 %; five of those.
+  // Relative error of a mean of this many exponential draws: 1.6 %; five of those.
   EXPECT_NEAR(rest / direct, std::pow(10.0, -0.3), 0.08 * std::pow(10.0, -0.3));
 }
 
@@ -301,7 +301,7 @@ TEST(MostRange, IsTheFreeSpaceRange) {
   EXPECT_NEAR(most_range_m(antenna(35.15, 865.7e6), tag(2.0, -20.0)), 14.05 * std::sqrt(2.0), 0.05);
 }
 
-/// Two kinds of tags on a spiral, turned every way, a stretch of each kind.
+/// Two kinds of tags on a spiral in all orientations, in runs of the same kind.
 std::vector<TagEnd> tags_on_a_spiral(const TagModel& first, const TagModel& second) {
   std::vector<TagEnd> tags;
   for (int i = 0; i < 300; ++i) {
@@ -313,8 +313,8 @@ std::vector<TagEnd> tags_on_a_spiral(const TagModel& first, const TagModel& seco
   return tags;
 }
 
-// The same antenna where it looks for what stands in between, in a world where nothing does: its
-// links are traced one by one.
+// The same antenna with occlusion switched on, in a world without obstacles: its links are traced
+// one by one.
 TEST(LinksOf, AreThoseThatAreTracedOneByOneInEmptySpace) {
   const RadioWorld world = empty_world();
   TagModel dipole = tag(2.15, -18.0);
@@ -353,7 +353,7 @@ TEST(LinksOf, AreThoseThatAreTracedOneByOneInEmptySpace) {
   }
 }
 
-// A tag among neighbours is not computed with the others, whose links stay the same bits.
+// A coupled tag is not computed in the batch of the others, whose links remain bit-identical.
 TEST(LinksOf, AreTheSameBesideTagsThatCouple) {
   const RadioWorld world = empty_world();
   TagModel dipole = tag(2.15, -18.0);

@@ -45,7 +45,7 @@ TEST(ReceivedFrom, IsFriisBetweenTheAntennas) {
     return received_from(sender_at(model, world, X_WA, kChannel + offset_hz, time_share), view,
                          paths);
   };
-  // Two right-circular antennas that face one another fit.
+  // Two right-circular antennas that face each other match.
   EXPECT_NEAR(to_db(received(towards, 0.0, 1.0).whole_mw), 30.0 + 2.0 * (8.0 - 1.5) + free_db,
               1e-6);
   EXPECT_NEAR(to_db(received(towards, 0.0, 0.25).whole_mw),
@@ -64,16 +64,16 @@ TEST(PowerAtTag, IsTheForwardLinksFromTheSender) {
   std::vector<RadioPath> paths;
   const double power_dbm =
       to_db(power_at_tag_mw(sender_at(model, world, {}, kChannel), tag, paths));
-  // Circular to linear takes 3.01 dB.
+  // Circular to linear loses 3.01 dB.
   EXPECT_NEAR(power_dbm,
               30.0 - 1.5 + 8.0 + kDipole_dbi - 3.0103 +
                   20.0 * std::log10(wavelength(kChannel) / (8.0 * kPi)),
               1e-3);
 }
 
-/// Whether a detector tells a reader's two levels, 1 and 1 − `depth`, apart by their middle, beside
-/// another carrier of amplitude `other` at any phase.
-bool envelope_is_told(double depth, double other) {
+/// Whether a detector distinguishes a reader's two levels, 1 and 1 − `depth`, by their midpoint, in
+/// the presence of another carrier of amplitude `other` at any phase.
+bool envelope_is_known(double depth, double other) {
   const double threshold = 1.0 - 0.5 * depth;
   for (int i = 0; i < 360; ++i) {
     const std::complex<double> beside = std::polar(other, radians(i));
@@ -89,7 +89,7 @@ TEST(HearsCommands, WhereAnEnvelopeIsToldBesideAnotherCarrier) {
     RadioLink link;
     link.tag_dbm = -8.0;
     const Disturbance beside{0.0, from_db(-8.0 - ratio_db)};
-    EXPECT_EQ(hears_commands(link, beside), envelope_is_told(kDepth, amplitude_from_db(-ratio_db)))
+    EXPECT_EQ(hears_commands(link, beside), envelope_is_known(kDepth, amplitude_from_db(-ratio_db)))
         << ratio_db;
     EXPECT_NEAR(capture_db(link, beside), ratio_db, 1e-9);
   }

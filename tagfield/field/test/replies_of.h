@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The replies of one update of an antenna that reads by the paper's model, all at once.
+/// All replies of one update of an antenna with the paper's model, in one vector.
 #pragma once
 
 #include <vector>

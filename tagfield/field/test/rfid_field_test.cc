@@ -15,11 +15,11 @@
 namespace tagfield {
 namespace {
 
-/// Writes down what it is told.
+/// Records all notifications.
 struct Log final : ReadListener, TruthListener {
   std::vector<std::string> events;
   std::map<std::string, std::vector<TagRead>> reads;  ///< Of the last update, by antenna.
-  std::vector<TagRead> all;                           ///< Of all, as they came.
+  std::vector<TagRead> all;                           ///< All reads, in order of arrival.
   std::map<std::string, Eigen::Vector3d> places;
   std::map<std::string, std::string> labels;
 
@@ -51,7 +51,7 @@ struct Log final : ReadListener, TruthListener {
   std::map<std::string, std::vector<TagRead>> fresh_;
 };
 
-/// A field with a log, and antennas that are added as they are first due.
+/// A field with a log, and antennas that are added when they are first due.
 struct LoggedField {
   std::shared_ptr<Log> log = std::make_shared<Log>();
   std::set<std::string> known;
@@ -147,7 +147,7 @@ TEST(RfidField, RefusesTagsThatAreThereOrNot) {
   EXPECT_TRUE(contains(error_of([&] { field.field.step(gone); }), "number 7"));
 }
 
-/// A hall with one metal wall at_place x = 2 m.
+/// A hall with one metal wall at x = 2 m.
 std::shared_ptr<const FieldWorld> walled_world() {
   auto world = std::make_shared<FieldWorld>();
   world->scene.collisions = {{"wall::link::box", Box{{0.1, 20.0, 20.0}}, at_place(2.0, 0.0, 0.0)}};
@@ -196,7 +196,7 @@ TEST(RfidField, KeepsTheWorldWhereTheNextIsBroken) {
   EXPECT_TRUE(field.field.take_warnings().empty());
 }
 
-/// Two seconds of inventory among three tags, beginning at_place 0; the reads of all updates.
+/// Two seconds of inventory among three tags, starting at 0; the reads of all updates.
 std::vector<TagRead> inventory_run(LoggedField& field, const AntennaDue& antenna) {
   const std::size_t before = field.log->all.size();
   for (int n = 0; n <= 30; ++n) {
@@ -238,8 +238,8 @@ TEST(RfidField, ReadsTheSameAgainWhenTimeBeginsAnew) {
   EXPECT_TRUE(between_updates);
 }
 
-// Any sequence of tags that come, go and move: the antenna, whose range is not perturbed here
-// beyond the tags' reach, reads exactly the set that a plain map holds.
+// Any sequence of tags that appear, disappear and move: the antenna, whose range is not perturbed
+// here beyond the tags' distances, reads exactly the set held by a plain map.
 RC_GTEST_PROP(RfidField, ReadsExactlyTheTagsThatAreThere, ()) {
   LoggedField field;
   Log& log = *field.log;
@@ -254,7 +254,8 @@ RC_GTEST_PROP(RfidField, ReadsExactlyTheTagsThatAreThere, ()) {
         step.removed.push_back(number);
         present.erase(number);
       }
-      if (what <= 1 && present.count(number) == 0) {  // A number may go and come in one step.
+      if (what <= 1 && present.count(number) == 0) {  // A number may be removed and added in one
+                                                      // step.
         present[number] = "tag" + std::to_string(made++);
         step.added.push_back({number, present[number], "", place});
       } else if (what == 2 && present.count(number) != 0) {

@@ -50,7 +50,7 @@ TEST(TagCouplings, FindTheNeighboursNearerThanAWavelength) {
 }
 
 TEST(TagCouplings, AreThoseOfTheWholeSystem) {
-  // Three in a row: the middle one's currents by Cramer's rule.
+  // Three in a row: the middle tag's currents by Cramer's rule.
   const TagPopulation tags = tags_at({{0, 0, 0}, {0, 0.08, 0}, {0, -0.08, 0}});
   TagCouplings couplings;
   couplings.see(tags);
@@ -112,8 +112,8 @@ TEST(TagCouplings, TakeTheNearestOfACrowd) {
   EXPECT_EQ(crowded.neighbours.back().first, kMostNeighbours);
 }
 
-/// Power that upright half-wave dipoles at `places` radiate with currents `c`, over that of one
-/// with a current of 1: over all directions of what goes there.
+/// Power radiated by vertical half-wave dipoles at `places` with currents `c`, relative to that of
+/// one with a current of 1: integrated over all directions.
 double radiated(const std::vector<Vector3d>& places, const Eigen::RowVectorXcd& c) {
   constexpr int kSteps = 200;
   double sum = 0.0;
@@ -139,9 +139,9 @@ double radiated(const std::vector<Vector3d>& places, const Eigen::RowVectorXcd& 
 }
 
 TEST(SharesAmong, KeepTheEnergy) {
-  // The first tag sends through the same shares as it receives by. What all of them radiate is
-  // what their currents put into the real part of the impedances, and with what the neighbours'
-  // chips take it is no more than a matched source has to give.
+  // The first tag transmits with the same weights as it receives. The power radiated by all is what
+  // their currents put into the real part of the impedances; together with the power absorbed by
+  // the neighbours' chips, it is at most that of a matched source.
   const auto kind = dipole();
   const std::vector<std::vector<Vector3d>> arrays = {
       {{0, 0, 0}, {0.02, 0, 0}, {0, 0.05, 0}},

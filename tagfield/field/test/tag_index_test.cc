@@ -17,12 +17,12 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 using Slots = std::vector<std::uint32_t>;
 
 Slots within(const TagIndex& index, const Eigen::Vector3d& center, double radius) {
-  Slots slots = {99};  // Must be emptied.
+  Slots slots = {99};  // Must be cleared.
   index.within(center, radius, slots);
   return slots;
 }
 
-/// The same by looking at every tag.
+/// Same, checking every tag.
 class PlainList {
  public:
   void place(std::uint32_t slot, const Eigen::Vector3d& p_WT) { tags_[slot] = p_WT; }
@@ -43,8 +43,8 @@ class PlainList {
   std::map<std::uint32_t, Eigen::Vector3d> tags_;
 };
 
-/// Halves of metres around 0, so that tags fall on cells' edges and distances on the radius; now
-/// and then far away.
+/// Multiples of half a metre around 0, so that tags are on cells' edges and at distances equal to
+/// the radius; now and then far away.
 Eigen::Vector3d any_position(std::mt19937_64& random) {
   std::uniform_int_distribution<int> halves(-40, 40);
   Eigen::Vector3d position(0.5 * halves(random), 0.5 * halves(random), 0.25 * halves(random));

@@ -74,8 +74,8 @@ RC_GTEST_PROP(ReadTags, ReportOnlyWhatReachesTheSensitivity, ()) {
   RC_ASSERT(next == heard.size());
 }
 
-// Against a map: whatever is added, moved and removed, the population holds what the map holds, and
-// an antenna reads exactly those within its range, each as read_tag() alone would.
+// Against a map: whatever is added, moved and removed, the population contains what the map
+// contains, and an antenna reads exactly those within its range, each as read_tag() would alone.
 RC_GTEST_PROP(ReadTags, GiveWhatEachTagAloneGives, ()) {
   TagPopulation tags(3.5);
   std::map<std::string, Eigen::Vector3d> expected;
@@ -110,7 +110,7 @@ RC_GTEST_PROP(ReadTags, GiveWhatEachTagAloneGives, ()) {
   RC_ASSERT(replies.size() == in_range);
   for (std::size_t i = 0; i < replies.size(); ++i) {
     const std::string& id = tags.id(replies[i].slot);
-    // In parentheses: RapidCheck's own || would look at what is before the first.
+    // In parentheses: RapidCheck's own || would evaluate the element before the first.
     RC_ASSERT((i == 0 || replies[i - 1].slot < replies[i].slot));
     const TagRead read = to_read(antenna(), id, replies[i]);
     const LinkGeometry link = link_between(p_WA, expected.at(id));

@@ -19,7 +19,8 @@ bool is_locked(int file, int how) {
   return true;
 }
 
-/// Who waited for a lock may have got that of a folder that was swapped for another meanwhile.
+/// Whether the locked folder is still at that path: while waiting for the lock, it may have been
+/// replaced by another.
 bool still_stands_at(const fs::path& path, int file) {
   struct stat of_file {};
   struct stat of_path {};

@@ -22,7 +22,7 @@ namespace tagfield::files_internal {
 namespace fs = std::filesystem;
 namespace {
 
-/// Folders beside that of the results are called so, and then by the process's number.
+/// Name prefix of temporary folders beside the results, followed by the process ID.
 std::string beside_name(const fs::path& place) {
   return fmt::format(".{}.tagfield-", place.filename().string());
 }
@@ -45,7 +45,8 @@ bool leads_to_own(const fs::path& name, const OwnFiles& own) {
   return next != own.end() && is_at_or_below(*next, name);
 }
 
-/// Whether all in a folder is of this file system, and ours or leads to what is.
+/// Whether everything in a folder is on the same file system, and is ours or contains files of
+/// ours.
 bool holds_only(const fs::path& folder, const fs::path& staging, const OwnFiles& own) {
   const std::optional<struct stat> there = status_of(folder);
   std::error_code error;
@@ -64,14 +65,15 @@ bool holds_only(const fs::path& folder, const fs::path& staging, const OwnFiles&
   return !error;
 }
 
-/// The process's own folder would be gone under its feet, and that of the shell it was called from.
+/// Whether the process's current folder is in `place`; it would be deleted, and so would that of
+/// the calling shell.
 bool stands_in(const fs::path& place) {
   std::error_code error;
   const fs::path here = fs::current_path(error);
   return error || is_at_or_below(here, place);
 }
 
-/// Gives it owner and permissions of the folder whose place it takes.
+/// Copies owner and permissions of the folder that it replaces.
 bool made_alike(const fs::path& folder, const fs::path& staging) {
   const std::optional<struct stat> from = status_of(folder);
   const std::optional<struct stat> to = status_of(staging);
@@ -81,7 +83,7 @@ bool made_alike(const fs::path& folder, const fs::path& staging) {
   return from->st_mode == to->st_mode || ::chmod(staging.c_str(), from->st_mode & 07777U) == 0;
 }
 
-/// Links `kept` into a folder; takes them out again unless told that they stay.
+/// Hard links `kept` into a folder; removes them again unless stay() is called.
 class LinkedIn {
  public:
   LinkedIn(const fs::path& folder, fs::path staging, const OwnFiles& kept)
@@ -118,8 +120,8 @@ void sync_folders_in(const fs::path& folder) {
   sync_folder(folder);
 }
 
-/// Of a folder that stood at `place`, or was to stand there, nothing is left; what somebody put
-/// into it at the last moment goes to `place`. Throws Error where that can't be done.
+/// Deletes a folder that was at `place`, or was to be put there; files that others added to it at
+/// the last moment are moved to `place`. Throws Error on failure.
 void move_out_and_delete(const fs::path& gone, const fs::path& place) {
   const OwnFiles own = read_own_list(gone / kOwnList);
   std::error_code error;
@@ -137,7 +139,7 @@ void move_out_and_delete(const fs::path& gone, const fs::path& place) {
   delete_own_folder(gone);
 }
 
-/// The same. What can't be cleared away now, the next result in that place may.
+/// Same, but ignores errors: the next result at that path may remove the rest.
 void clear_away(const fs::path& gone, const fs::path& place) {
   try {
     move_out_and_delete(gone, place);

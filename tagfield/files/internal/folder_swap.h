@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A folder of results takes the place of an earlier one in one step.
+/// Atomic replacement of a folder of results by a new one.
 #pragma once
 
 #include <filesystem>
@@ -9,18 +9,17 @@
 
 namespace tagfield::files_internal {
 
-/// Puts `staging`, a folder inside of `folder`, in the place of that, by one system call: whoever
-/// looks finds all of the one or all of the other. Of the earlier files `kept` are in both. The
-/// caller holds the locks on both.
+/// Replaces `folder` by `staging`, a folder inside of it, with one system call: observers see
+/// either all of the one or all of the other. Earlier files in `kept` are in both. The caller holds
+/// the locks on both.
 ///
-/// Gives false, with nothing changed, where that can't be done: there is something in `folder` that
-/// is not `own` (files of others, a run that goes on), the process stands in it, it is where
-/// another file system is mounted, its parent can't be written to, or the file system can't swap
-/// folders.
+/// Returns false, with nothing changed, if that is impossible: `folder` contains files that are not
+/// in `own` (foreign files, a run in progress), it contains the process's current folder, it is a
+/// mount point, its parent is not writable, or the file system can't swap folders.
 bool swap_in(const std::filesystem::path& folder, const std::filesystem::path& staging,
              const OwnFiles& own, const OwnFiles& kept);
 
-/// Deletes what programs that were killed within swap_in() left beside `folder`.
+/// Deletes leftovers beside `folder` of programs that were killed during swap_in().
 void remove_swap_leftovers(const std::filesystem::path& folder);
 
 }  // namespace tagfield::files_internal

@@ -68,7 +68,7 @@ void delete_own_folder(const fs::path& folder) {
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     if (entry->path().filename() != kOwnList) inside.push_back(entry->path());
   }
-  // Without its list nobody would know any more whose it is.
+  // Without its list, its ownership would be lost.
   if (error) return;
   for (const fs::path& path : inside) {
     fs::remove_all(path, error);

@@ -17,11 +17,11 @@
 namespace tagfield {
 namespace {
 
-AntennaInfo antenna(const std::string& name, bool is_fixed, bool tells_doppler = false) {
+AntennaInfo antenna(const std::string& name, bool is_fixed, bool reports_doppler = false) {
   AntennaInfo info;
   info.name = name;
   info.is_fixed = is_fixed;
-  info.tells_doppler = tells_doppler;
+  info.reports_doppler = reports_doppler;
   return info;
 }
 
@@ -83,7 +83,7 @@ TEST(CsvOutlet, WritesTheSameAsTheWholeRecordingAtOnce) {
     EXPECT_EQ(run.text_of(file), other.text_of(file)) << file;
     EXPECT_GT(run.text_of(file).size(), 50U) << file;
   }
-  // A fixed antenna has one row, the other one an update each.
+  // A fixed antenna has one row, the other one has a row per update.
   EXPECT_EQ(recording.believed_poses.size(), 4U);
 }
 
@@ -120,7 +120,7 @@ TEST(CsvOutlet, LeavesNothingWhereARunDidNotBegin) {
   EXPECT_TRUE(run.names().empty());
 }
 
-/// A program that is killed while it writes.
+/// Simulates a program that is killed while writing.
 void write_and_die(const std::filesystem::path& path) {
   StagedFolder folder(path);
   CsvOutlet outlet(folder);

@@ -18,7 +18,7 @@ CsvTable table_of(const std::string& text) {
   return read_csv(folder.with("t.csv", text));
 }
 
-/// The complaint about a file of this text, from its name on.
+/// The error message for a file with this text, from its name on.
 std::string complaint(const std::string& text) {
   const std::string message = error_of([&] { table_of(text); });
   const std::size_t name = message.find("t.csv");
@@ -106,7 +106,7 @@ TEST(ReadCsv, RefusesFilesThatAreNoTable) {
   EXPECT_EQ(complaint(std::string("a,b\n1,\0\n", 8)), "t.csv: is not a text file");
 }
 
-/// A quote that is never closed, or a file without line breaks, would be kept in memory to its end.
+/// An unclosed quote, or a file without line breaks, would be buffered to the end of the file.
 TEST(ReadCsv, RefusesRowsThatDoNotEnd) {
   EXPECT_EQ(complaint("a,b\n1,2\n" + std::string(1'100'000, '3') + ",4\n"),
             "t.csv:3: a row of over 1000000 bytes");

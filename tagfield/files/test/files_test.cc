@@ -70,7 +70,7 @@ TEST(WriteTextFile, SaysThatTheDiskIsFull) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   const TemporaryFolder folder;
   const std::string path = folder.file("f");
-  // Where write_text_file writes first, a disk that is always full.
+  // Replaces the temporary file of write_text_file by a disk that is always full.
   fs::create_symlink("/dev/full", path + "." + std::to_string(getpid()) + ".partial");
   EXPECT_TRUE(contains(error_of([&] { write_text_file(path, "x"); }), path + ": can't be written"));
   EXPECT_EQ(folder.names(), Names{});
@@ -89,7 +89,7 @@ TEST(ReadTextFile, RefusesWhatIsTooLong) {
 }
 
 TEST(ReadTextFile, AnErrorIsNoEnd) {
-  // Reading at address 0 of a process is an input/output error, whoever asks.
+  // Reading at address 0 of a process is an input/output error for any user.
   EXPECT_TRUE(contains(error_of([] { read_text_file("/proc/self/mem"); }), "can't be read: "));
 }
 

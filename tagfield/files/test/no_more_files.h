@@ -8,12 +8,12 @@
 
 namespace tagfield {
 
-/// As long as it lives.
+/// In effect during its lifetime.
 class NoMoreFiles {
  public:
   NoMoreFiles() {
     ::getrlimit(RLIMIT_NOFILE, &before_);
-    const int next = ::dup(STDERR_FILENO);  // The lowest one that is free.
+    const int next = ::dup(STDERR_FILENO);  // The lowest free one.
     ::close(next);
     rlimit none = before_;
     none.rlim_cur = static_cast<rlim_t>(next);

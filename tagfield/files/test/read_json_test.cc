@@ -67,7 +67,7 @@ TEST(JsonString, EscapesWhatJsonDoesNotTake) {
   EXPECT_EQ(json_string("größer €😀"), "\"größer €😀\"");
 }
 
-// Overlong forms, surrogates, what is beyond U+10FFFF and what is cut off.
+// Overlong forms, surrogates, characters above U+10FFFF and truncated ones.
 TEST(JsonString, ReplacesWhatIsNoUtf8) {
   const std::string bad = "\xEF\xBF\xBD";
   EXPECT_EQ(json_string("a\xFFz"), "\"a" + bad + "z\"");
@@ -77,7 +77,7 @@ TEST(JsonString, ReplacesWhatIsNoUtf8) {
   EXPECT_EQ(json_string("\xE2\x82"), '"' + bad + bad + '"');
 }
 
-/// Undoes what escapes there are, by hand.
+/// Decodes escapes independently of the code under test.
 std::string unquoted(const std::string& json) {
   std::string text;
   for (std::size_t i = 1; i + 1 < json.size(); ++i) {

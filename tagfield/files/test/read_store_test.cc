@@ -85,7 +85,8 @@ RC_GTEST_PROP(ReadStore, GivesBackEachTagsReadsInOnePart, ()) {
       RC_ASSERT(text_of(of_tag) == text_of(expected.at(tag)));
       if (everywhere.count(tag) == 0) counted += of_tag.size();
     }
-    // A part is no larger than asked for, but for one tag or where parts would be too many.
+    // A part is no larger than requested, except for a single tag or if there would be too many
+    // parts.
     const std::size_t most = std::max(of_part, reads.size() / kMostParts + 1);
     RC_ASSERT(counted <= most || part.size() - everywhere.size() == 1U ||
               store.parts() == kMostParts);

@@ -35,7 +35,7 @@ void commit(const fs::path& folder, const Files& files, const std::vector<fs::pa
   staged.commit(stale);
 }
 
-/// All files of a folder but the list, read by the standard library alone.
+/// All files of a folder except the list, read by the standard library only.
 Files files_of(const TemporaryFolder& folder) {
   Files files;
   for (const std::string& name : folder.names()) {
@@ -122,7 +122,7 @@ TEST(StagedFolder, NeverReplacesWhatOthersWrote) {
   EXPECT_TRUE(contains(error_of([&] { staged.add("map.pgm", "x"); }), start));
   EXPECT_TRUE(contains(error_of([&] { staged.grow("map.pgm"); }), start));
   staged.add("map.yaml", "x");
-  // While the run went on.
+  // During the run.
   (void)folder.with("map.yaml", "mine too");
   EXPECT_TRUE(contains(error_of([&] { staged.commit(); }), "map.yaml: was not written by"));
   EXPECT_EQ(folder.text_of("map.pgm"), "mine");
@@ -198,7 +198,7 @@ TEST(StagedFolder, RemovesWhatAKilledRunLeftOnceAnotherIsWhole) {
   EXPECT_TRUE(fs::exists(running.staging()));
 }
 
-/// The state in which a commit of `after` over `before` is after `moved` of its moves.
+/// The state after `moved` moves of an interrupted commit of `after`.
 void cut_off_commit(const fs::path& folder, const Files& after, std::size_t moved) {
   const pid_t child = fork();
   if (child == 0) {
@@ -275,7 +275,7 @@ TEST(StagedFolder, IsSwappedBesideWhatTheWorkKeepsThere) {
   EXPECT_NE(inode_of(out), before);
   EXPECT_EQ(folder.names(), (Names{"out", "out/.tagfield", "out/a", "out/log"}));
   EXPECT_EQ(files_of(folder), (Files{{"out/a", "new"}, {"out/log", "half done"}}));
-  // It is none of the results: the next commit leaves it, and the folder, as they are.
+  // It is not a result: the next commit leaves it, and the folder, unchanged.
   commit(out, {{"a", "newer"}}, {"log"});
   EXPECT_EQ(folder.text_of("out/log"), "half done");
 }
@@ -323,7 +323,7 @@ TEST(StagedFolder, ALinkToItStaysALink) {
   EXPECT_EQ(folder.text_of("real/a"), "new");
 }
 
-/// Kills a child that commits the one and the other in turn, and goes on with what is left.
+/// Kills a child that commits two versions in turn, and continues with what is left.
 TEST(StagedFolder, KilledAtAnyMomentHoldsTheOneOrTheOther) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
@@ -346,7 +346,7 @@ TEST(StagedFolder, KilledAtAnyMomentHoldsTheOneOrTheOther) {
     ASSERT_EQ(waitpid(child, nullptr, 0), child);
     Files found;
     for (const auto& [name, text] : files_of(folder)) {
-      // What the child was at; another commit removes it.
+      // The child's work in progress, which another commit removes.
       if (name.rfind("out/incomplete-", 0) != 0 && name.rfind("out/", 0) == 0) found[name] = text;
     }
     EXPECT_TRUE(found == one || found == other) << "kill " << kill_number;
@@ -356,7 +356,7 @@ TEST(StagedFolder, KilledAtAnyMomentHoldsTheOneOrTheOther) {
                                    "out/stale/d"}));
 }
 
-/// What can't be looked through is not taken for empty, and deleted.
+/// A folder that can't be read must not be considered empty and deleted.
 TEST(FinishCommit, WithoutFilesToOpenLosesNothing) {
   const TemporaryFolder folder;
   cut_off_commit(folder.path(), {{"a", "1"}, {"b/c", "1"}}, 1);
@@ -396,7 +396,7 @@ TEST(StagedFolder, LeavesItsListWhereNoMoreFilesCanBeOpened) {
     const NoMoreFiles limit;
     files_internal::delete_own_folder(own);
   }
-  // Nothing is lost by which the next result knows that it may be cleared away.
+  // Everything that marks the folder as deletable is kept for the next result.
   EXPECT_TRUE(files_internal::is_own_folder(own));
   EXPECT_TRUE(fs::exists(own / "truth/tags.csv"));
   files_internal::delete_own_folder(own);

@@ -20,7 +20,7 @@ TEST(TableRows, WritesEachKindOfCell) {
   EXPECT_EQ(csv_row({}), "\n");
 }
 
-/// strtod is another's reader of numbers.
+/// strtod is an independent parser of numbers.
 RC_GTEST_PROP(TableRows, NumbersAreReadBackToTheLastBit, (double number)) {
   RC_PRE(std::isfinite(number));
   RC_ASSERT(std::strtod(csv_row({Cell(number)}).c_str(), nullptr) == number);

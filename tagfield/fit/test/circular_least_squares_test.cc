@@ -19,7 +19,7 @@ double normal(Rng& rng, double sigma) {
 
 using Rows = std::vector<CircularRow<2>>;
 
-/// Angles at slopes (1, x), of which `theta` is taken away.
+/// Angles with random slopes, minus the prediction for `theta`.
 Rows rows_at(const Eigen::Vector2d& theta, std::uint64_t seed, double noise) {
   Rng rng(seed);
   Rows rows;

@@ -18,7 +18,7 @@ struct Made {
   Eigen::MatrixXd dense;
 };
 
-/// A matrix with strong diagonal and entries anywhere in an envelope.
+/// A diagonally dominant matrix with random entries in an envelope.
 Made made_of(Index size, unsigned seed) {
   std::mt19937_64 rng(seed);
   std::uniform_real_distribution<double> entry(-1.0, 1.0);

@@ -19,7 +19,7 @@ struct Point {
   double cost = 0.0;
 };
 
-/// Of residuals that shall be 0 with the slope J.
+/// Point for residuals with the Jacobian J, whose squares are to be minimized.
 Point point_of(const Vector2d& x, const Eigen::VectorXd& residuals, const Eigen::MatrixX2d& J) {
   return {x, J.transpose() * J, -J.transpose() * residuals, residuals.squaredNorm()};
 }
@@ -31,7 +31,7 @@ Point in_valley(const Vector2d& x) {
   return point_of(x, Vector2d(10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]), J);
 }
 
-/// A line through four places.
+/// A line fitted to four points.
 Point on_line(const Vector2d& x) {
   Eigen::MatrixX2d J(4, 2);
   J << 1.0, 0.0, 1.0, 1.0, 1.0, 2.0, 1.0, 3.0;
@@ -47,7 +47,7 @@ Point descended(const At& at, const Vector2d& start, const LevenbergMarquardt& h
   });
 }
 
-// By hand: the mean of the places is 1.5, of the values 4.25; the slope 12.5 / 5.
+// By hand: the mean abscissa is 1.5, the mean value 4.25, the slope 12.5 / 5.
 TEST(LevenbergMarquardt, FitsALineAsTheClosedFormDoes) {
   const Point best = descended(on_line, {100.0, -100.0}, {});
   EXPECT_NEAR(best.x[1], 2.5, 1e-9);
@@ -88,7 +88,7 @@ TEST(LevenbergMarquardt, EndsAtTheLeastGain) {
     double x = 0.0;
     double cost = 0.0;
   };
-  // Each step gains half of the one before.
+  // Each step gains half as much as the previous one.
   const auto halved = [](const Place& here, double) -> std::optional<Place> {
     return Place{here.x + 1.0, 0.5 * here.cost};
   };

@@ -7,14 +7,14 @@
 namespace tagfield {
 namespace {
 
-/// Of whole numbers, whose sums are exact.
+/// A matrix of integers, whose sums are exact.
 Eigen::MatrixXd any_matrix(Eigen::Index rows, Eigen::Index columns) {
   Eigen::MatrixXd matrix(rows, columns);
   for (Eigen::Index i = 0; i < matrix.size(); ++i) matrix(i) = *rc::gen::inRange(-9, 10);
   return matrix;
 }
 
-/// By its definition, element by element.
+/// Product by its definition, element by element.
 Eigen::MatrixXd multiplied(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(A.rows(), B.cols());
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
@@ -25,7 +25,7 @@ Eigen::MatrixXd multiplied(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   return all;
 }
 
-// Up to 40: Eigen multiplies small matrices in another way than large ones.
+// Sizes up to 40: Eigen multiplies small and large matrices by different algorithms.
 RC_GTEST_PROP(Products, AreSumsOfProducts, ()) {
   const int rows = *rc::gen::inRange(1, 40);
   const int inner = *rc::gen::inRange(1, 40);

@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// A fit of one offset to phases, as plain as can be.
+/// Evidence of the simplest fit: one offset to phases.
 double evidence_of(const std::vector<double>& phases) {
   CircularMean mean;
   for (const double phase : phases) mean.add(phase);
@@ -32,7 +32,7 @@ std::vector<double> draw(std::mt19937_64& rng, std::size_t count, double noise_r
   return phases;
 }
 
-// 10,000 draws: at 1 % the count has a standard deviation of 10.
+// With 10,000 draws and a probability of 1 % the count has a standard deviation of 10.
 TEST(RandomPhases, AreBelievedInOneCaseOfAHundredAtMost) {
   std::mt19937_64 rng(1);
   for (const std::size_t count : {3U, 5U, 10U, 30U, 100U}) {
@@ -53,7 +53,7 @@ TEST(RandomPhases, OfAModelThatHoldsAreTold) {
   EXPECT_GE(believed, 990);
 }
 
-// By numerical integration of the evidence of one offset, for a known noise.
+// Compared with numerical integration of the evidence of one offset, for a known noise.
 TEST(RandomPhases, AnOffsetCostsWhatItsPriorSays) {
   const double noise = 0.3;
   const std::vector<double> residuals = {0.2, -0.1, -0.3, 0.15, 0.05};

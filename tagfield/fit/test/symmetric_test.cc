@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-/// Aᵀ A + 1 of whole numbers below `most`, so that it is positive definite.
+/// Aᵀ A + I with integers below `most` in A, hence positive definite.
 template <int N>
 Eigen::Matrix<double, N, N> any_positive(int most) {
   Eigen::Matrix<double, N, N> root;
@@ -25,7 +25,7 @@ void expect_solved() {
   const Eigen::Matrix<double, N, N> A = any_positive<N>(10);
   Eigen::Matrix<double, N, 1> x;
   for (Eigen::Index i = 0; i < N; ++i) x(i) = *rc::gen::inRange(-9, 10);
-  // Wrong by rounding, times the condition number.
+  // Rounding errors are multiplied by the condition number.
   RC_ASSERT((solve_symmetric(A, Eigen::Matrix<double, N, 1>(A * x)) - x).norm() < 1e-8);
   if constexpr (N > 2) {
     RC_ASSERT(
@@ -42,7 +42,7 @@ RC_GTEST_PROP(Symmetric, SolvesWhatWasMultiplied, ()) {
   expect_solved<6>();
 }
 
-/// Leibniz' formula, over all orders of the columns.
+/// Leibniz formula, over all permutations of the columns.
 template <int N>
 double determinant_by_orders(const Eigen::Matrix<double, N, N>& A) {
   Eigen::Matrix<Eigen::Index, N, 1> order;
@@ -61,7 +61,7 @@ double determinant_by_orders(const Eigen::Matrix<double, N, N>& A) {
   return sum;
 }
 
-// Of small numbers: the terms, up to 25⁶ each, cancel.
+// With small numbers, as the terms, up to 25⁶ each, cancel.
 RC_GTEST_PROP(Symmetric, DeterminantIsLeibniz, ()) {
   const Eigen::Matrix4d four = any_positive<4>(3);
   RC_ASSERT(std::abs(log_determinant(four) - std::log(determinant_by_orders(four))) < 1e-4);
@@ -132,7 +132,7 @@ RC_GTEST_PROP(Symmetric, RootsOfWhatIsNotDefiniteToo, ()) {
   RC_ASSERT((root * root.transpose() - A).norm() <= 1e-6 * (1.0 + A.norm()));
 }
 
-// Of independent values the product of their densities.
+// For independent values it is the product of their densities.
 TEST(Symmetric, NormalDensityIsThatOfItsAxes) {
   Eigen::VectorXd x = Eigen::Vector3d(0.3, -1.2, 2.0);
   const Eigen::Vector3d sigmas(0.5, 2.0, 1.0);
@@ -141,7 +141,7 @@ TEST(Symmetric, NormalDensityIsThatOfItsAxes) {
     log += std::log(std::exp(-0.5 * x(i) * x(i) / (sigmas(i) * sigmas(i))) /
                     (sigmas(i) * std::sqrt(2.0 * 3.14159265358979324)));
   }
-  Eigen::Matrix3d turn;  // Of an angle with cosine 0.6, about z: the density turns with it.
+  Eigen::Matrix3d turn;  // About z, by an angle with cosine 0.6: the density rotates with it.
   turn << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1;
   Eigen::MatrixXd covariance =
       turn * Eigen::Matrix3d(sigmas.cwiseAbs2().asDiagonal()) * turn.transpose();

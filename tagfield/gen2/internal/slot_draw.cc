@@ -6,7 +6,7 @@
 namespace tagfield {
 namespace {
 
-/// Failures before the next success, where the probability of failure has this logarithm.
+/// Number of failures before the next success, given the logarithm of the probability of failure.
 double failures(RandomStream& stream, double log_failure) {
   return std::floor(std::log(uniform_above_0(stream)) / log_failure);
 }
@@ -24,7 +24,7 @@ void draw_repliers(std::int64_t slots_left, RandomStream& stream,
        place += 1.0 + failures(stream, log_failure)) {
     repliers.push_back(static_cast<std::uint32_t>(place));
   }
-  // From the back, so that what fills a gap is never one of those still to be moved.
+  // From the back, so that the element moved into a gap is never one that is still to be moved.
   for (auto place = repliers.rbegin(); place != repliers.rend(); ++place) {
     const std::uint32_t tag = waiting[*place];
     waiting[*place] = waiting.back();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Which tags reply in the next slot of a frame, without a look at all others.
+/// Selection of the tags that reply in the next slot of a frame, without visiting all others.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,12 @@
 
 namespace tagfield {
 
-/// Moves to `repliers` (emptied first) those of `waiting` whose slot is the next of `slots_left` >=
-/// 1 slots. Called for a frame's slots one after the other, this is the same law as when each tag
-/// draws its slot in advance: one whose slot is not past is in the next of n with probability 1/n,
-/// whatever the others do. The gaps between such tags in a list are geometric, so it takes one draw
-/// for each that replies and one more. The order of `waiting` changes.
+/// Moves the tags of `waiting` that reply in the next of `slots_left` >= 1 slots to `repliers`
+/// (cleared first). Called once per slot of a frame, this follows the same distribution as each tag
+/// drawing its slot in advance: a tag that has not yet replied is in the next of n slots with
+/// probability 1/n, independently of the others. The gaps between such tags in a list are
+/// geometrically distributed, so one draw per replying tag plus one is enough. The order of
+/// `waiting` changes.
 void draw_repliers(std::int64_t slots_left, RandomStream& stream,
                    std::vector<std::uint32_t>& waiting, std::vector<std::uint32_t>& repliers);
 

@@ -11,7 +11,7 @@ namespace tagfield {
 
 inline Time at(double seconds) { return time_from_seconds(seconds); }
 
-/// Tags 0 to `count` - 1, all heard alike.
+/// Tags 0 to `count` - 1, all equally strong.
 inline std::vector<TagOnAir> alike(int count, double decode_probability = 1.0) {
   std::vector<TagOnAir> tags;
   for (int tag = 0; tag < count; ++tag) {
@@ -33,7 +33,7 @@ inline InventorySettings in_session(Session session) {
   return settings;
 }
 
-/// An inventory with tags of its own.
+/// An inventory with its own tags.
 struct InventoryBench {
   explicit InventoryBench(const InventorySettings& settings, std::uint64_t seed = 1,
                           std::uint64_t key = 1, const LinkSettings& link = {})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whom an inventory reads again, and when: sessions, targets, absence, and antennas that share
-// tags.
+// Which tags an inventory reads again, and when: sessions, targets, absence, and antennas that
+// share tags.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ TEST(Inventory, InS1EachTagIsReadAgainOnceItsPersistenceIsOver) {
   std::map<std::uint32_t, Time> last;
   for (const Singulation& read : out) {
     const auto [place, first] = last.try_emplace(read.tag, read.stamp);
-    // 2 s from the end of the reply, and then the round in progress and a slot in the next.
+    // 2 s from the end of the reply, plus the round in progress and a slot in the next.
     if (first) continue;
     EXPECT_GT(to_seconds(read.stamp - place->second), 2.0);
     EXPECT_LT(to_seconds(read.stamp - place->second), 2.3);
@@ -77,7 +77,8 @@ TEST(Inventory, TargetBAsksForThoseInB) {
   EXPECT_EQ(bench.inventory.target(), Flag::kB);
 }
 
-/// Tag 0 is read in the first second; how often in the next two when it is away for `away` seconds.
+/// Tag 0 is read in the first second; returns how often in the next two, if it is absent for `away`
+/// seconds.
 std::size_t reads_after_absence(Session session, double away) {
   InventoryBench bench(in_session(session));
   bench.inventory.set_field(at(0.0), alike(1));
@@ -157,7 +158,7 @@ TEST(Inventory, WhatIsOffReadsNothing) {
   EXPECT_FALSE(bench.memories.powered(0));
   bench.inventory.start(at(1.0));
   EXPECT_TRUE(bench.memories.powered(0));
-  bench.inventory.stop(at(1.004));  // In the first round.
+  bench.inventory.stop(at(1.004));  // During the first round.
   EXPECT_FALSE(bench.memories.powered(0));
   EXPECT_TRUE(bench.read_until(2.0).empty());
   bench.inventory.stop(at(2.0));

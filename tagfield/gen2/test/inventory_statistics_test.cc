@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What chance does in inventories, against the laws of chance and against published figures. Bounds
-// of z are statistics::kNormalBound: a false alarm in a million for each use.
+// Random behaviour of inventories, compared with probability theory and published figures. Bounds
+// of z are statistics::kNormalBound: one false alarm in a million per use.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace tagfield {
 namespace {
 
-/// Rounds of a fixed Q in which all `tags` always take part: those read are set back to A between
+/// Rounds with fixed Q in which all `tags` always participate: those read are reset to A between
 /// rounds, which are far enough apart for that.
 InventoryCounts fresh_rounds(int q, int tags, int rounds, double decode_probability = 1.0) {
   InventorySettings settings = fixed_q(q);
@@ -29,7 +29,8 @@ InventoryCounts fresh_rounds(int q, int tags, int rounds, double decode_probabil
   return bench.inventory.counts();
 }
 
-/// Of `boxes` boxes into which as many balls are thrown: how many hold exactly `held`, 0 or 1.
+/// Distribution of the number of boxes that contain exactly `held` balls, 0 or 1, when `boxes`
+/// balls are thrown into `boxes` boxes.
 struct Occupancy {
   double mean;
   double variance;
@@ -68,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Inventory, SlotEfficiency,
                                          std::pair(8, 0.3686)));
 
 TEST(Inventory, OneTagsSlotIsUniform) {
-  // The number of empty slots before it in a frame of 8, over rounds.
+  // The number of empty slots before it in a frame of 8, over many rounds.
   InventorySettings settings = fixed_q(3);
   settings.round_overhead_s = 0.01;
   InventoryBench bench(settings);
@@ -93,8 +94,8 @@ TEST(Inventory, DecodeProbabilityIsTheShareOfReadsAmongRepliesAlone) {
 }
 
 TEST(Inventory, AdaptiveQGoesWhereEmptySlotsAreAsManyAsLostOnes) {
-  // 256 tags of which none is ever made out: nobody leaves, and e^-x = 1 - e^-x tags a slot
-  // balance.
+  // 256 tags, none of which is ever decoded: none leaves, and Q is balanced at e^-x = 1 - e^-x for
+  // x tags per slot.
   InventoryBench bench(InventorySettings{});
   bench.inventory.set_field(at(0.0), alike(256, 0.0));
   bench.inventory.start(at(0.0));
@@ -105,13 +106,14 @@ TEST(Inventory, AdaptiveQGoesWhereEmptySlotsAreAsManyAsLostOnes) {
     sum += bench.inventory.q();
   }
   EXPECT_NEAR(sum / kSteps, std::log2(256 / std::log(2.0)), 0.3);
-  // Qfp remains from 0 to 15, so empty slots and others differ by 15/C at most.
+  // Qfp stays from 0 to 15, so the numbers of empty and other slots differ by 15/C at most.
   const InventoryCounts& counts = bench.inventory.counts();
   EXPECT_LT(std::abs(counts.empty - counts.failed - counts.collided), 75);
 }
 
-/// Least mean time for a read when the reader knows how many tags are left and always has the best
-/// number of slots for them: over x, the mean number of replies in a slot, which is Poisson.
+/// Minimum mean time per read if the reader knows how many tags are left and always uses the
+/// optimal number of slots: minimized over x, the mean number of replies in a slot, which is
+/// Poisson-distributed.
 double best_time_per_read(const LinkSettings& link, Session session) {
   const double command = query_rep_s(link, session);
   double best = 1e9;
@@ -134,15 +136,16 @@ TEST(Inventory, AdaptiveQReadsNearlyAsFastAsCanBe) {
   std::vector<Singulation> out;
   bench.inventory.run_until(at(60.0), out);
   ASSERT_EQ(out.size(), 2000U);
-  // Without finding Q at first and the last few tags.
+  // Without the initial search for Q and the last few tags.
   const double measured = to_seconds(out[1899].stamp - out[99].stamp) / 1800.0;
   const double best = best_time_per_read({}, Session::kS2);
-  EXPECT_GT(measured, 0.97 * best);  // Chance: 1800 reads of a slot count of 2.7 ± 2.1 each.
+  EXPECT_GT(measured, 0.97 * best);  // Random error: 1800 reads of 2.7 ± 2.1 slots each.
   EXPECT_LT(measured, 1.1 * best);
 }
 
 TEST(Inventory, AdaptiveQFollowsThePopulation) {
-  // Annex D balances empty slots and collisions: of x replies a slot, Poisson, where e^x = 2 + x.
+  // Annex D balances empty slots and collisions: for Poisson with x replies per slot, at e^x = 2 +
+  // x.
   constexpr double kBalance = 1.146;
   EXPECT_NEAR(std::exp(kBalance), 2.0 + kBalance, 1e-3);
   InventorySettings settings;
@@ -162,8 +165,8 @@ TEST(Inventory, AdaptiveQFollowsThePopulation) {
   EXPECT_NEAR(statistics::mean(differences), 0.0, 0.2);
 }
 
-// Impinj's Indy RS500 (data sheet revision 1.1, table 5-12): 130, 35 and 50 reads/s. It doesn't say
-// with what link and settings; docs/gen2.md says which of them give this and which do not.
+// Impinj's Indy RS500 (data sheet revision 1.1, table 5-12): 130, 35 and 50 reads/s. Its link and
+// settings are not stated; docs/gen2.md lists which of them give these rates and which do not.
 double rs500_rate(int q, int tags) {
   LinkSettings link;
   link.pilot = false;

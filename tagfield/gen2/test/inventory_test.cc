@@ -23,7 +23,7 @@ TEST(Inventory, OneTagsFirstReadIsWhereTheStandardsTimesPutIt) {
   bench.inventory.set_field(at(0.0), alike(1));
   bench.inventory.start(at(1.0));
   std::vector<Singulation> out;
-  // Power-up and overhead, then Query (185.333 + 13 data-0 + 9 data-1), 1451.5 up to the EPC and
+  // Power-up and overhead, then Query (185.333 + 13 data-0 + 9 data-1), 1451.5 until the EPC and
   // the rest of the slot, in microseconds: see link_timing_test.cc.
   const double query = 1.0 + (1500 + 3000 + 185.333333 + 13 * 25.0 + 9 * 37.5) * 1e-6;
   bench.inventory.run_until(at(query + 3907.4e-6), out);
@@ -42,7 +42,7 @@ TEST(Inventory, DualTargetThroughputOfOneTagIsTheSumOfItsSlots) {
   InventoryBench bench(settings);
   bench.inventory.set_field(at(0.0), alike(1));
   bench.inventory.start(at(0.0));
-  // A round that reads it, and one that finds nobody left; 847.833 a Query.
+  // A round that reads the tag, and one that finds none left; 847.833 per Query.
   const double cycle = (2 * 847.833333 + 3907.5 + 125.0 + 2 * 1000.0 + 2000.0) * 1e-6;
   EXPECT_NEAR(static_cast<double>(bench.read_until(100.0).size()), 100.0 / cycle, 2.0);
 }
@@ -61,14 +61,14 @@ TEST(Inventory, AdaptiveQInAnEmptyFieldTakesTheTimeOfItsCommands) {
   InventoryBench bench(InventorySettings{});
   bench.inventory.start(at(0.0));
   bench.read_until(100.0);
-  // Qfp falls from 4 by 0.2 a slot: 3 slots with Q 4, 5 with Q 3, and then a whole frame with Q 2,
-  // which is quiet: back to 4. Query, 2 QueryAdjusts, 9 QueryReps and 12 empty slots.
+  // Qfp decreases from 4 by 0.2 per slot: 3 slots with Q 4, 5 with Q 3, and then a whole frame with
+  // Q 2, which is empty: back to 4. Query, 2 QueryAdjusts, 9 QueryReps and 12 empty slots.
   const double cycle = (847.833333 + 2 * 375.0 + 9 * 200.0 + 12 * 125.0) * 1e-6;
   EXPECT_NEAR(static_cast<double>(bench.inventory.counts().rounds), 100.0 / cycle, 1.5);
 }
 
 TEST(Inventory, TheStrongestIsCapturedFromItsThresholdOn) {
-  // -50 dBm against twice -58: 4.99 dB.
+  // -50 dBm against the sum of two at -58: 4.99 dB.
   const std::vector<TagOnAir> tags = {{0, -58.0, 1.0}, {1, -50.0, 1.0}, {2, -58.0, 1.0}};
   const auto counts = [&](std::optional<double> capture_db) {
     InventorySettings settings = fixed_q(0);
@@ -100,7 +100,7 @@ TEST(Inventory, AReadFailsWhoseTagGoesBeforeItsEnd) {
   InventoryBench bench(fixed_q(0));
   bench.inventory.set_field(at(0.0), alike(1));
   bench.inventory.start(at(0.0));
-  EXPECT_TRUE(bench.read_until(0.004).empty());  // Amid the first slot.
+  EXPECT_TRUE(bench.read_until(0.004).empty());  // During the first slot.
   bench.inventory.set_field(at(0.004), {});
   EXPECT_TRUE(bench.read_until(0.1).empty());
   EXPECT_EQ(bench.inventory.counts().failed, 1);

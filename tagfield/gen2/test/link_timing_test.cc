@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPicosecond = 1e-12;
 
-/// The fastest link that the standard knows.
+/// The fastest link allowed by the standard.
 LinkSettings fastest() {
   LinkSettings link;
   link.tari_s = 6.25e-6;
@@ -23,7 +23,7 @@ LinkSettings fastest() {
   return link;
 }
 
-// All sums below are done by hand, in microseconds.
+// All sums below are computed by hand, in microseconds.
 
 TEST(LinkTiming, FastestLinksCommandsByHand) {
   const LinkSettings link = fastest();
@@ -33,7 +33,7 @@ TEST(LinkTiming, FastestLinksCommandsByHand) {
   EXPECT_NEAR(trcal_s(link), 33.33333333e-6, kPicosecond);
   EXPECT_NEAR(frame_sync_s(link), 37.5e-6, kPicosecond);
   EXPECT_NEAR(preamble_s(link), 70.83333333e-6, kPicosecond);
-  // 1000, DR 1, M 00, TRext 0, Sel 00, S0 00: 2 ones of 12; half of the other 10: 7 of 22.
+  // 1000, DR 1, M 00, TRext 0, Sel 00, S0 00: 2 ones in 12 bits; half of the other 10: 7 of 22.
   EXPECT_NEAR(query_s(link, Session::kS0), (70.83333333 + 15 * 6.25 + 7 * 12.5) * 1e-6,
               kPicosecond);
   EXPECT_NEAR(query_adjust_s(link, Session::kS0), (37.5 + 5 * 6.25 + 4 * 12.5) * 1e-6, kPicosecond);
@@ -44,13 +44,13 @@ TEST(LinkTiming, FastestLinksCommandsByHand) {
 
 TEST(LinkTiming, FastestLinksRepliesAndSlotsByHand) {
   const LinkSettings link = fastest();
-  // 1.5625 a bit; 6 symbols before and 1 after.
+  // 1.5625 per bit; 6 symbols before and 1 after.
   EXPECT_NEAR(rn16_s(link), 35.9375e-6, kPicosecond);
   EXPECT_NEAR(epc_reply_s(link), 210.9375e-6, kPicosecond);
   EXPECT_NEAR(t1_s(link), 18.75e-6, kPicosecond);
   EXPECT_NEAR(t2_s(link), 15.625e-6, kPicosecond);
   EXPECT_NEAR(t4_s(link), 37.5e-6, kPicosecond);
-  // T1 + T3 = 34.375 are less than T4.
+  // T1 + T3 = 34.375 is less than T4.
   EXPECT_NEAR(empty_slot_s(link), 37.5e-6, kPicosecond);
   EXPECT_NEAR(collided_slot_s(link), 70.3125e-6, kPicosecond);
   EXPECT_NEAR(epc_begins_s(link), (70.3125 + 206.25 + 18.75) * 1e-6, kPicosecond);
@@ -61,7 +61,7 @@ TEST(LinkTiming, DenseReadersLinkByHand) {
   const LinkSettings link;  // Tari 25, data-1 of 1.5, 250 kHz, Miller 4, pilot.
   check(link);
   EXPECT_NEAR(preamble_s(link), (12.5 + 25 + 62.5 + 85.33333333) * 1e-6, kPicosecond);
-  // 1000, DR 1, M 10, TRext 1, Sel 00, S2 10: 5 ones of 12; 10 of 22.
+  // 1000, DR 1, M 10, TRext 1, Sel 00, S2 10: 5 ones in 12 bits; 10 of 22.
   EXPECT_NEAR(query_s(link, Session::kS2), (185.33333333 + 12 * 25 + 10 * 37.5) * 1e-6,
               kPicosecond);
   EXPECT_NEAR(query_adjust_s(link, Session::kS1), 387.5e-6, kPicosecond);
@@ -93,7 +93,7 @@ TEST(LinkTiming, LongerEpcsTakeTheirBits) {
   EXPECT_NEAR(read_slot_s(longer) - read_slot_s({}), 400 * 16e-6, kPicosecond);
 }
 
-// Table 6.9: what a divide ratio can give over all of TRcal's range, 17.2 to 225 µs.
+// Table 6.9: the frequencies of each divide ratio over TRcal's whole range, 17.2 to 225 µs.
 TEST(LinkTiming, DivideRatiosReachTheirFrequenciesAndNoMore) {
   LinkSettings link = fastest();
   link.data1_tari = 1.5;

@@ -23,7 +23,7 @@ TEST(MemoryBanks, TheEpcStandsAfterCrcAndPc) {
   EXPECT_EQ(read(tag, Bank::kEpc, 0, 1), (Words{tag.crc()}));
 }
 
-/// CRC-16/GENIBUS of "123456789" is D64E; of an even number of its digits, by long division.
+/// CRC-16/GENIBUS of "123456789" is D64E; for an even number of its digits, by long division.
 TEST(MemoryBanks, CrcIsTheStandards) {
   const auto by_division = [](const std::vector<std::uint8_t>& bytes) {
     unsigned crc = 0xffff;
@@ -69,8 +69,8 @@ TEST(MemoryBanks, ALockAsksForThePassword) {
   EXPECT_EQ(tag.write(0, Bank::kUser, 0, {1}), Result::kLocked);
   EXPECT_EQ(tag.write(0x1, Bank::kUser, 0, {1}), Result::kWrongPassword);
   EXPECT_EQ(tag.write(0xdeadbeef, Bank::kUser, 0, {1}), Result::kSuccess);
-  EXPECT_EQ(read(tag, Bank::kUser, 0, 1), (Words{1}));  // always to be read
-  // A locked password is not to be read without it.
+  EXPECT_EQ(read(tag, Bank::kUser, 0, 1), (Words{1}));  // always readable
+  // A locked password can't be read without the access password.
   EXPECT_EQ(tag.lock(0xdeadbeef, LockField::kAccessPassword, {true, false}), Result::kSuccess);
   Words unused;
   EXPECT_EQ(tag.read(0, Bank::kReserved, 2, 2, unused), Result::kLocked);
@@ -105,7 +105,7 @@ TEST(MemoryBanks, MasksAreComparedBitByBit) {
   EXPECT_TRUE(tag.matches(Bank::kEpc, 36, 8, {0xfe}, {0x5e}));
   EXPECT_TRUE(tag.matches(Bank::kEpc, 32, 0, {}, {}));
   EXPECT_FALSE(tag.matches(Bank::kEpc, 32, 16, {}, {0xa5}));       // too little data
-  EXPECT_FALSE(tag.matches(Bank::kUser, 32 * 16, 1, {}, {0x80}));  // beyond the end
+  EXPECT_FALSE(tag.matches(Bank::kUser, 32 * 16, 1, {}, {0x80}));  // past the end
   const auto crc = static_cast<std::uint8_t>(tag.crc() >> 8U);
   EXPECT_TRUE(tag.matches(Bank::kEpc, 0, 8, {}, {crc}));
 }

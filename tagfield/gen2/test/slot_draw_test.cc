@@ -34,7 +34,7 @@ RC_GTEST_PROP(SlotDraw, AFrameHasEachTagOnce, ()) {
   RC_ASSERT(all == first(count));
 }
 
-// Two tags, four slots, sixteen pairs of slots: all as often as the others.
+// Two tags, four slots, sixteen pairs of slots: all equally frequent.
 TEST(SlotDraw, TagsDrawApartFromOneAnother) {
   constexpr int kFrames = 32000;
   RandomStream stream(1, Purpose::kGen2);

@@ -24,7 +24,7 @@ TEST(TagEpc, ShortIdsAreTheirBytes) {
   EXPECT_EQ(to_hex(epc_of_id("parcel_00012")), "70617263656C5F3030303132");
 }
 
-/// As ASCII has them, with a zero up to a whole word.
+/// As their ASCII bytes, zero-padded to a whole word.
 TEST(TagEpc, LongerIdsAreTheirBytesToo) {
   EXPECT_EQ(to_hex(epc_of_id("a longer name")), "61206C6F6E676572206E616D6500");
   EXPECT_EQ(epc_of_id(std::string(62, 'x')), Words(31, 0x7878));

@@ -10,7 +10,7 @@ namespace {
 
 Time at(double seconds) { return time_from_seconds(seconds); }
 
-/// Tag 3 with power from 0 s on, B in all sessions from 1 s on.
+/// Tag 3 with power from 0 s on, and B in all sessions from 1 s on.
 TagMemories inventoried_tag() {
   TagMemories memories({2.0, 10.0});
   memories.power_on(3, at(0.0));

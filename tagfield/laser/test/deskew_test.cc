@@ -14,7 +14,7 @@
 namespace tagfield {
 namespace {
 
-/// A robot on an arc, whose odometry has another origin than the world.
+/// A robot on an arc, whose odometry origin differs from the world's.
 struct Motion {
   BodyVelocity velocity;
   PlanarPose start_W{-1.0, 0.5, 0.2};
@@ -46,7 +46,7 @@ LaserScan deskewed(const LaserScan& scan, const LaserParameters& laser, const Mo
       scan, [&](Time time) { return motion.odometry(time); }, laser.X_RL);
 }
 
-/// Where the scanner is and looks at a time.
+/// Position and heading of the scanner at a time.
 struct View {
   Eigen::Vector2d p;
   double heading;
@@ -61,8 +61,8 @@ View view_at(const LaserParameters& laser, const Motion& motion, Time time) {
           up.z() > 0.0 ? 1.0 : -1.0};
 }
 
-/// How far a range is off the wall's distances within one step of its angle [m]. Where a wall is
-/// met at a slant, and in the room's corners, a scan says no more than that.
+/// Deviation of a range from the wall's distances within one step of its angle [m]. At grazing
+/// incidence and in the room's corners, a scan is no more precise than that.
 double beyond_a_step(const LaserScan& scan, std::size_t i, const View& view) {
   double least = 100.0;
   double most = 0.0;
@@ -107,7 +107,7 @@ TEST(Deskew, AWallIsStraightAgain) {
   EXPECT_GT(worst_before, 0.2);
   EXPECT_LT(worst, 1e-4);
   EXPECT_LT(sum, 0.005 * sum_before);
-  // It turned by 0.075 rad to the left: of the last angles 17 had no beam, but for the last one.
+  // It turned left by 0.075 rad: 17 of the last angles, excluding the last one, had no beam.
   EXPECT_LE(invalid, 18);
 }
 
@@ -160,7 +160,7 @@ TEST(Deskew, NoPointsAppearBetweenABoxAndTheWallBehind) {
   const Obstacles box{{}, {{{1.0, 1.0}, {0.5, 0.7}, 0.6}}};
   const LaserScan scan = deskewed(swept_scan(room(), laser, motion, box), laser, motion);
   const View view = view_at(laser, motion, scan.stamp);
-  // The same box, seen at once.
+  // The same box, scanned instantaneously.
   LaserParameters still = laser;
   still.sweep_s = 0.0;
   const Motion stopped{{}, motion.truth(scan.stamp), {}};
@@ -182,11 +182,11 @@ TEST(Deskew, NoPointsAppearBetweenABoxAndTheWallBehind) {
     wrong += std::abs(scan.ranges_m[i] - truth.ranges_m[i]) > 0.02 ? 1 : 0;
   }
   EXPECT_GT(on_box, 50);
-  EXPECT_LE(wrong, 4);  // At the box' two rims.
+  EXPECT_LE(wrong, 4);  // At the two edges of the box.
 }
 
 TEST(Deskew, AThinPoleIsNotLost) {
-  // Met by a beam or two.
+  // Hit by a beam or two.
   const LaserParameters laser = swept_laser();
   const Motion motion{{1.5, -3.0}};
   const Obstacles pole{{{{1.2, 1.1}, 0.006}}, {}};
@@ -222,7 +222,7 @@ TEST(Deskew, AScannerThatSeesAllRoundSeesAllRound) {
       }
       EXPECT_NEAR(scan.ranges_m[i], to_wall(view.p, view.heading + beam_angle(scan, i)), 0.01) << i;
     }
-    // Turning to the left the beams overlap; to the right they leave 0.075 rad, 17 steps, unseen.
+    // Turning left, the beams overlap; turning right, they leave 0.075 rad, 17 steps, unobserved.
     EXPECT_LE(invalid, 20) << turn;
   }
 }
@@ -253,7 +253,7 @@ TEST(Deskew, InvalidStaysInvalidAndRangesStayInRange) {
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const double truth = to_wall(view.p, view.heading + beam_angle(scan, i));
     const Beam beam = beam_of(scan, scan.ranges_m[i]);
-    // The ends of what was in range then move by up to 4 cm.
+    // The end points of returns move by up to 4 cm.
     if (truth < 3.4) {
       EXPECT_EQ(beam, Beam::kInvalid) << i;
     }

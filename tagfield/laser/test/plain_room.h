@@ -24,7 +24,7 @@ inline Scene room() {
   return scene;
 }
 
-/// Distance from a point in the room to its wall.
+/// Distance from a point in the room to its wall in a given direction.
 inline double to_wall(const Eigen::Vector2d& p, double angle) {
   const double inf = std::numeric_limits<double>::infinity();
   const double c = std::cos(angle);

@@ -36,7 +36,7 @@ TEST(SimulatedLaser, SeesTheWallsOfARoomAtAllAngles) {
   const double yaw = 0.4;
   const LaserScan scan = scan_from(room(), laser, from_planar(1.0, -0.5, yaw));
   ASSERT_EQ(scan.ranges_m.size(), 361U);
-  // The scanner stands 0.15 m before the robot's centre.
+  // The scanner is 0.15 m in front of the robot's centre.
   const Eigen::Vector2d p(1.0 + 0.15 * std::cos(yaw), -0.5 + 0.15 * std::sin(yaw));
   for (std::size_t i = 0; i < 361; ++i) {
     const double angle = -kPi + radians(static_cast<double>(i));
@@ -77,7 +77,7 @@ TEST(SimulatedLaser, TiltedItSeesTheFloor) {
   laser.X_RL = from_xyz_rpy({0.0, 0.0, 1.0}, {0.0, 0.1, 0.0});
   const LaserScan scan = scan_from(scene, laser, {});
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    // Down by sin(0.1)·cos(angle) for each metre.
+    // Descends by sin(0.1)·cos(angle) per metre.
     const double forward = std::max(std::cos(beam_angle(scan, i)), 1e-9);
     const double expected = 1.0 / (std::sin(0.1) * forward);
     if (expected < 29.9) {
@@ -113,7 +113,7 @@ TEST(SimulatedLaser, NearAndFarAreSaidAsTheScanSays) {
 }
 
 TEST(SimulatedLaser, NoiseIsGaussianAndIndependent) {
-  const LaserParameters laser;  // 720 beams of 0.01 m.
+  const LaserParameters laser;  // 720 beams with a sigma of 0.01 m.
   const RayScene world(room());
   std::vector<double> errors;
   std::vector<double> neighbours;
@@ -132,7 +132,7 @@ TEST(SimulatedLaser, NoiseIsGaussianAndIndependent) {
     }
     before = scan;
   }
-  // False alarms: 1e-6 for each of these.
+  // False-alarm probability: 1e-6 for each of these.
   EXPECT_LT(statistics::kolmogorov(errors, statistics::normal_cdf), statistics::kKolmogorovBound);
   EXPECT_LT(std::abs(statistics::correlation_deviate(errors, neighbours)),
             statistics::kNormalBound);
@@ -140,7 +140,7 @@ TEST(SimulatedLaser, NoiseIsGaussianAndIndependent) {
 }
 
 TEST(SimulatedLaser, NoiseTakesNoReturnOutOfTheRange) {
-  // A wall at the end of the range, and one at its beginning: about half of the returns are lost.
+  // A wall at the maximum range, and one at the minimum: about half of the returns are lost.
   for (const bool far : {false, true}) {
     LaserParameters laser;
     laser.sigma_m = 0.1;
@@ -177,7 +177,7 @@ TEST(SimulatedLaser, TheSameArgumentsGiveTheSameScan) {
 }
 
 TEST(SimulatedLaser, ABeamsNoiseDoesNotDependOnOtherBeams) {
-  // An obstacle that hides half of the walls leaves the other half's ranges as they are.
+  // An obstacle that occludes half of the walls leaves the ranges to the other half unchanged.
   const LaserParameters laser;
   const LaserScan without = scan_from(room(), laser, {});
   const LaserScan with = scan_from(room(), laser, {}, {{{{1.0, 1.0}, 0.5}}, {}});
@@ -220,7 +220,7 @@ TEST(SimulatedLaser, EachBeamLeavesFromWhereTheScannerIsThen) {
     const double t = to_seconds(scan.stamp) + static_cast<double>(i) * 0.025 / 719.0;
     const double yaw = 0.2 + 3.0 * t;
     const Eigen::Vector2d p(-1.0 + 1.5 * t + 0.15 * std::cos(yaw), 0.5 + 0.15 * std::sin(yaw));
-    // The beams' interval is whole nanoseconds, the last beam up to 0.72 µs early.
+    // The beam interval is in whole nanoseconds, so the last beam is up to 0.72 µs early.
     EXPECT_NEAR(scan.ranges_m[i], to_wall(p, yaw + beam_angle(scan, i)), 1e-4) << i;
     const double still = to_seconds(scan.stamp);
     const double yaw_0 = 0.2 + 3.0 * still;
@@ -229,7 +229,7 @@ TEST(SimulatedLaser, EachBeamLeavesFromWhereTheScannerIsThen) {
     most_moved = std::max(most_moved,
                           std::abs(scan.ranges_m[i] - to_wall(p_0, yaw_0 + beam_angle(scan, i))));
   }
-  EXPECT_GT(most_moved, 0.1);  // Else this test would show nothing.
+  EXPECT_GT(most_moved, 0.1);  // Otherwise, this test would show nothing.
 }
 
 TEST(SimulatedLaser, AsksForPosesWithinTheSweepAndInOrder) {
@@ -268,7 +268,7 @@ TEST(SimulatedLaser, SeesADisc) {
   }
 }
 
-/// Where the ray from the origin at `angle` meets a segment, or infinity.
+/// Distance at which the ray from the origin at `angle` hits a segment, or infinity.
 double to_segment(double angle, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d d(std::cos(angle), std::sin(angle));
   const Eigen::Vector2d along = b - a;
@@ -318,7 +318,7 @@ TEST(SimulatedLaser, ObstaclesAreTallAndHideBehindWalls) {
   laser.beams = 3;
   laser.first_angle_rad = -0.1;
   laser.last_angle_rad = 0.1;
-  // The middle beam goes down by 0.3 rad: 2 m level are 2/cos(0.3) along it.
+  // The middle beam is inclined by 0.3 rad: 2 m horizontally are 2/cos(0.3) along it.
   const Obstacles near{{}, {{{2.5, 0.0}, {1.0, 3.0}, 0.0}}};
   EXPECT_NEAR(scan_from(Scene{}, laser, {}, near).ranges_m[1], 2.0 / std::cos(0.3), 1e-5);
   laser.X_RL = from_translation({0.0, 0.0, 1.0});

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// An option that never misses would be without bound in logarithms.
+/// The logarithm of an option that never misses would be unbounded.
 constexpr double kMostLog = 30.0;
 constexpr double kTouching = 1e-7;
 constexpr int kMostRounds = 200;
@@ -38,8 +38,8 @@ double log_of(const Miss& miss) {
   return std::min(kMostLog, -std::log(std::max(static_cast<double>(miss.probability), 1e-300)));
 }
 
-/// Columns: an option each (0 or 1), then an element each (its worth, up to cap), then the readers
-/// of each zone (whole).
+/// Columns: one per option (0 or 1), then one per element (its worth, up to cap), then one per zone
+/// (integer number of readers).
 class Program {
  public:
   Program(const SelectionProblem& problem, const OptionSet& begin);
@@ -74,7 +74,7 @@ class Program {
   const SelectionProblem& problem_;
   OptionSet best_;
   std::vector<std::vector<Term>> sums_;  ///< By element, over options: of −ln p, or of reads.
-  std::vector<std::size_t> zones_;       ///< That options have; kNoZone is one.
+  std::vector<std::size_t> zones_;       ///< Zones of the options; kNoZone counts as one.
   std::vector<Row> rows_;
 };
 
@@ -102,7 +102,7 @@ void Program::add_terms(std::size_t option) {
   }
 }
 
-/// Reads are their sum, up to the cap; probabilities a curve of it.
+/// Reads are bounded by their sum, up to the cap; probabilities by tangents of a curve of the sum.
 void Program::add_first_bounds() {
   for (std::size_t element = 0; element < sums_.size(); ++element) {
     if (problem_.worth == Worth::kReads) {
@@ -154,8 +154,8 @@ void Program::add_tangent(std::size_t element, double at) {
   rows_.push_back(std::move(row));
 }
 
-/// Where a zone is crossed too much, the foreign options that do it are not all taken again. As few
-/// of them as still do it, so that the cut is strong.
+/// Where a zone has too many cross reads, forbids taking all the responsible options of other zones
+/// together. Uses as few of these as still exceed the limit, for a strong cut.
 bool Program::add_cross_cut(const OptionSet& choice) {
   const std::vector<double> cross = cross_of(problem_, choice);
   bool any = false;
@@ -175,7 +175,8 @@ bool Program::add_cross_cut(const OptionSet& choice) {
   return any;
 }
 
-/// Tangents where the program promises an element more than the choice gives it; how many.
+/// Adds tangents for elements to which the program assigns more than the choice gives them. Returns
+/// how many.
 std::size_t Program::add_tangents(const OptionSet& choice, const std::vector<double>& worth) {
   if (problem_.worth == Worth::kReads) return 0;
   std::vector<double> log(problem_.elements.size(), 0.0);

@@ -36,7 +36,7 @@ BestLink best_link(const PlanSpec& plan, const LinkMatrix& matrix, const PlanPro
       const RigidTransform& X_WA = plan.mounts[column.mount].X_WA[column.look];
       nearest_m = std::min(nearest_m, (of_row.X_WT.translation - X_WA.translation).norm());
       const LinkStates states = matrix.states(option.column, row);
-      for (std::size_t fade = 0; fade < kFadingPlaces; ++fade) {
+      for (std::size_t fade = 0; fade < kFadingPositions; ++fade) {
         for (std::size_t carrier = 0; carrier < std::max<std::size_t>(states.carriers(), 1);
              ++carrier) {
           const double margin =

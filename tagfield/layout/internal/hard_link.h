@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Why a place stays hard to read.
+/// Why a position remains hard to read.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace tagfield {
 
-/// Margins of the best link of a place, by antenna, over orientations and fading.
+/// Margins of the best antenna's link to a position, over orientations and fading.
 struct BestLink {
   std::string antenna;
   double distance_m = 0.0;
@@ -19,11 +19,12 @@ struct BestLink {
   bool arrives = false;
 };
 
-/// Of all antennas of a choice to one place of a group, with the plan's margin taken off.
+/// The best link from any antenna of a choice to one position of a group, with the plan's margin
+/// subtracted.
 BestLink best_link(const PlanSpec& plan, const LinkMatrix& matrix, const PlanProblem& problem,
                    const OptionSet& choice, std::size_t group, std::size_t place);
 
-/// In a few words.
+/// The reason in a few words.
 std::string why_hard(const BestLink& link);
 
 }  // namespace tagfield

@@ -11,11 +11,11 @@
 namespace tagfield {
 namespace {
 
-/// The states with so much less, to their quarter of a dB.
+/// The states reduced by `less_db`, to a quarter of a dB.
 LinkStates weaker(const LinkStates& states, double less_db) {
   if (less_db == 0.0 || states.is_empty()) return states;
   std::vector<double> margins;
-  for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+  for (std::size_t place = 0; place < kFadingPositions; ++place) {
     for (std::size_t carrier = 0; carrier < states.carriers(); ++carrier) {
       margins.push_back(states.margin_db(place, carrier) - less_db);
     }
@@ -72,18 +72,18 @@ std::size_t LayoutForecast::first_row_of(const PlanTag& tag) const {
   return first_rows_[tag.group][tag.place * orientations + tag.orientation];
 }
 
-std::vector<std::vector<RangeTold>> LayoutForecast::ranges_of(
+std::vector<std::vector<RangeInformation>> LayoutForecast::ranges_of(
     const OptionSet& choice, const std::vector<std::vector<LinkStates>>& states,
     double less_db) const {
   if (!plan_.aim.position_error_m) return {};
-  std::vector<std::vector<RangeTold>> ranges(choice.size());
+  std::vector<std::vector<RangeInformation>> ranges(choice.size());
   parallel_for(choice.size(), request_.threads, [&](std::size_t port) {
     const PlanMount& mount = mount_of(choice[port]);
     const Eigen::Vector3d p_WA = place_of(choice[port]);
     for (std::size_t row = 0; row < matrix_.rows.size(); ++row) {
       const double distance_m = (matrix_.rows[row].X_WT.translation - p_WA).norm();
       ranges[port].push_back(
-          range_told(*physical(mount.antenna), states[port][row], less_db, distance_m));
+          range_information(*physical(mount.antenna), states[port][row], less_db, distance_m));
     }
   });
   return ranges;
@@ -99,7 +99,7 @@ Eigen::Vector3d LayoutForecast::place_of(std::size_t option) const {
 }
 
 bool LayoutForecast::has_enough(const std::vector<CountedReads>& reads, const OptionSet& choice,
-                                const std::vector<std::vector<RangeTold>>& ranges,
+                                const std::vector<std::vector<RangeInformation>>& ranges,
                                 std::size_t row) const {
   if (plan_.aim.dwell_reads) {
     double sum = 0.0;
@@ -118,7 +118,7 @@ bool LayoutForecast::has_enough(const std::vector<CountedReads>& reads, const Op
 std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& choice,
                                                             double less_db) const {
   const std::vector<ForecastPort> ports = ports_of(choice);
-  // Each link once, by port and row.
+  // Compute each link only once, by port and row.
   std::vector<std::vector<LinkStates>> states(choice.size());
   parallel_for(choice.size(), request_.threads, [&](std::size_t port) {
     const PlanOption& option = problem_.options[choice[port]];
@@ -129,7 +129,7 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& cho
   const std::vector<PlannedAntenna> antennas = antennas_of(plan_, matrix_, problem_, choice);
   std::map<std::string, std::string> zone_of_reader;
   for (const PlannedAntenna& antenna : antennas) zone_of_reader[antenna.reader] = antenna.zone;
-  const std::vector<std::vector<RangeTold>> ranges = ranges_of(choice, states, less_db);
+  const std::vector<std::vector<RangeInformation>> ranges = ranges_of(choice, states, less_db);
   std::vector<Sample> samples(tags_.size());
   parallel_for(tags_.size(), request_.threads, [&](std::size_t number) {
     ForecastRequest request;
@@ -148,7 +148,7 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& cho
         for (std::size_t stop = 0; stop < stops.size(); ++stop) {
           const LinkStates& link = states[port][first + stop];
           if (link.is_empty()) continue;
-          // A pallet stands where its path begins and ends before and after.
+          // The pallet stands at the start of its path before, and at the end of it afterwards.
           ForecastLink told{port, stops[stop].begin_s, stops[stop].end_s, &link};
           if (stop == 0) told.begin_s = 0.0;
           if (stop + 1 == stops.size()) told.end_s = duration_s_;
@@ -187,7 +187,7 @@ ExpectedCount LayoutForecast::read(const OptionSet& choice, double less_db) cons
 
 void LayoutForecast::fill(const OptionSet& choice, PlannedLayout& layout) const {
   const std::vector<Sample> all = samples(choice, plan_.margin_db);
-  // What others read is not made less by a margin that links may not need.
+  // Cross reads must not be reduced by a margin that links may not need.
   const bool is_same = plan_.margin_db == 0.0 || problem_.zones.size() < 2;
   const std::vector<Sample> as_they_are = is_same ? all : samples(choice, 0.0);
   std::vector<double> counts;

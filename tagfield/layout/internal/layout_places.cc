@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-/// Where each group's places begin among all, and how many there are.
+/// Index of each group's first position among all, and the total number.
 std::pair<std::vector<std::size_t>, std::size_t> first_places(const PlanSpec& plan) {
   std::vector<std::size_t> first(plan.tags.size(), 0);
   std::size_t places = 0;
@@ -30,9 +30,10 @@ std::vector<double> met_by_place(const PlanSpec& plan, const LinkMatrix& matrix,
   const std::vector<LinkElement> elements = elements_of(matrix);
   for (std::size_t number = 0; number < elements.size(); ++number) {
     const LinkRow& row = matrix.rows[elements[number].first_row];
-    const auto ways = static_cast<double>(plan.tags[row.group].orientations.size() * kFadingPlaces);
-    for (std::size_t fade = 0; fade < kFadingPlaces; ++fade) {
-      by_place[first_place[row.group] + row.place] += met[number * kFadingPlaces + fade] / ways;
+    const auto ways =
+        static_cast<double>(plan.tags[row.group].orientations.size() * kFadingPositions);
+    for (std::size_t fade = 0; fade < kFadingPositions; ++fade) {
+      by_place[first_place[row.group] + row.place] += met[number * kFadingPositions + fade] / ways;
     }
   }
   return by_place;
@@ -46,9 +47,9 @@ std::vector<double> errors_by_place(const PlanSpec& plan, const LinkMatrix& matr
   for (const std::size_t option : choice) {
     std::vector<Told> of_option(places);
     for (const Told& one : problem.selection.options[option].told) {
-      const LinkRow& row = matrix.rows[elements[one.element / kFadingPlaces].first_row];
+      const LinkRow& row = matrix.rows[elements[one.element / kFadingPositions].first_row];
       const auto ways =
-          static_cast<float>(plan.tags[row.group].orientations.size() * kFadingPlaces);
+          static_cast<float>(plan.tags[row.group].orientations.size() * kFadingPositions);
       Told& sum = of_option[first_place[row.group] + row.place];
       sum.xx += one.xx / ways;
       sum.xy += one.xy / ways;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a layout has at each place of tags: all groups' places, one group after the other.
+/// How well a layout meets the aim at each tag position: the positions of all groups, one group
+/// after the other.
 #pragma once
 
 #include <vector>
@@ -9,11 +10,11 @@
 
 namespace tagfield {
 
-/// met_by() in the mean over the orientations and fading of each place.
+/// met_by(), averaged over the orientations and fading of each position.
 std::vector<double> met_by_place(const PlanSpec& plan, const LinkMatrix& matrix,
                                  const PlanProblem& problem, const OptionSet& choice);
 
-/// Where places count, bounds on the error of each [m], by what is told in the mean over its
+/// For Worth::kPlace, bounds on the error of each position [m], from the mean information over its
 /// orientations and fading.
 std::vector<double> errors_by_place(const PlanSpec& plan, const LinkMatrix& matrix,
                                     const PlanProblem& problem, const OptionSet& choice);

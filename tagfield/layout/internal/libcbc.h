@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// CBC, loaded when an exact plan is asked for.
+/// CBC, loaded when an exact plan is requested.
 #pragma once
 
 #include <coin/Cbc_C_Interface.h>

@@ -13,8 +13,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kReply_dbm = -50.0;  ///< All alike, so that none is captured.
-/// Strengths of a link fall as the distance to the fourth, and scatter, as `fixed` takes them to.
+constexpr double kReply_dbm = -50.0;  ///< The same for all tags, so that there is no capture.
+/// Signal strength falls with the fourth power of the distance and scatters, as assumed by `fixed`.
 constexpr double kSlope_db = 40.0;
 constexpr double kFading_db = 4.0;
 
@@ -39,7 +39,7 @@ double port_dwell_s(const RadioModel& model) {
 double reads_a_turn(const RadioModel& model, double rate_hz, std::size_t ports, std::size_t tags) {
   constexpr int kTurns = 20;
   const double dwell_s = port_dwell_s(model);
-  // Without an inventory all ports read at once, each at its updates.
+  // Without an inventory all ports read simultaneously, each at its updates.
   if (!model.gen2 || !model.effects.inventory) {
     return rate_hz * dwell_s * static_cast<double>(ports);
   }
@@ -64,7 +64,7 @@ double reads_a_turn(const RadioModel& model, double rate_hz, std::size_t ports, 
 }
 
 double ReadsATurn::of(const RadioModel& model, double rate_hz, double tags) {
-  // Two digits will do.
+  // Two significant digits suffice.
   const double step = std::pow(10.0, std::floor(std::log10(std::max(tags, 1.0))) - 1.0);
   const auto count =
       static_cast<std::size_t>(std::max(1.0, std::round(std::round(tags / step) * step)));
@@ -83,7 +83,8 @@ double information_of_strength(double distance_m) {
   return std::pow(slope / kFading_db, 2.0);
 }
 
-Told told_along(double information, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT) {
+Told information_along(double information, const Eigen::Vector3d& p_WA,
+                       const Eigen::Vector3d& p_WT) {
   const Eigen::Vector3d way = p_WT - p_WA;
   const Eigen::Vector2d u = way.head<2>() / std::max(way.norm(), 1e-9);
   return {0, static_cast<float>(information * u.x() * u.x()),
@@ -91,13 +92,13 @@ Told told_along(double information, const Eigen::Vector3d& p_WA, const Eigen::Ve
           static_cast<float>(information * u.y() * u.y())};
 }
 
-RangeTold range_told(const RadioModel& model, const LinkStates& states, double less_db,
-                     double distance_m) {
-  RangeTold told;
+RangeInformation range_information(const RadioModel& model, const LinkStates& states,
+                                   double less_db, double distance_m) {
+  RangeInformation told;
   if (states.is_empty()) return told;
   double heard = 0.0;
   double precision = 0.0;  // 1/σφ², summed.
-  for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+  for (std::size_t place = 0; place < kFadingPositions; ++place) {
     for (std::size_t carrier = 0; carrier < states.carriers(); ++carrier) {
       const double margin_db = states.margin_db(place, carrier) - less_db;
       if (margin_db < 0.0) continue;
@@ -115,14 +116,15 @@ RangeTold range_told(const RadioModel& model, const LinkStates& states, double l
 double expected_spread(const RadioModel& model, double reads, double visited) {
   const double channels =
       std::clamp(std::min(visited, reads), 1.0, static_cast<double>(hopped_channels(model)));
-  // Of channels drawn without putting back the variance is nearly that of all, less their mean's.
+  // For channels drawn without replacement, approximately the variance of all minus that of their
+  // mean.
   return reads * spread_of(model) * (1.0 - 1.0 / channels);
 }
 
-Told told_by(const RangeTold& range, double reads, double spread, const Eigen::Vector3d& p_WA,
-             const Eigen::Vector3d& p_WT) {
+Told told_by(const RangeInformation& range, double reads, double spread,
+             const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT) {
   if (!(reads > 0.0)) return {};
-  return told_along(
+  return information_along(
       information_of_phases(spread * range.precision) + range.by_strength * std::min(reads, 1.0),
       p_WA, p_WT);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Columns of a link matrix on disk, compressed, each under the hash of all that it depends on.
+/// Columns of a link matrix on disk, compressed, each under the hash of all its inputs.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace tagfield {
 
-/// Text of 32 hexadecimal digits that tells contents apart.
+/// Hash of 32 hexadecimal digits.
 std::string content_hash(const std::string& bytes);
 
-/// A column of `size` bytes from `folder`; none where it is not there. `damaged` is set where a
-/// file is there that is not whole.
+/// A column of `size` bytes from `folder`; none if it is not there. Sets `damaged` if the file
+/// exists but is incomplete.
 std::optional<std::vector<std::int8_t>> stored_column(const std::string& folder,
                                                       const std::string& hash, std::size_t size,
                                                       bool& damaged);

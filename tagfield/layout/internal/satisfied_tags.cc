@@ -39,9 +39,9 @@ bool SatisfiedTags::has_enough(const std::string& tag, const OfTag& of_tag) cons
   for (const auto& [antenna, link] : of_tag.links) {
     const Eigen::Vector3d& p_WA = run_.p_WA.at(antenna);
     const double spread = std::max(0.0, link.second - link.first * link.first / link.weight);
-    all.push_back(told_along(information_of_phases(spread * kMega * kMega) +
-                                 information_of_strength((p_WT - p_WA).norm()),
-                             p_WA, p_WT));
+    all.push_back(information_along(information_of_phases(spread * kMega * kMega) +
+                                        information_of_strength((p_WT - p_WA).norm()),
+                                    p_WA, p_WT));
   }
   return error_bound_m(all) <= *run_.aim.position_error_m;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Which tags have in a full run what a plan aims at.
+/// Which tags meet a plan's aim in a full run.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 
 namespace tagfield {
 
-/// What a count of tags needs to know of a run.
+/// The data of a run needed to count tags.
 struct CountedRun {
   PlanAim aim;
   std::map<std::string, std::string> zone_of_tag;  ///< "" for none.
@@ -25,19 +25,20 @@ struct CountedRun {
   std::map<std::string, ReaderHardware> readers;  ///< By antenna.
 };
 
-/// Counts while the run goes on. A place is bounded by the reads that there were: their carriers,
-/// and the phase noise that their strengths mean.
+/// Counts during the run. The bound on a position error follows from the actual reads: their
+/// carriers, and the phase noise at their signal strengths.
 class SatisfiedTags final : public ReadListener {
  public:
   explicit SatisfiedTags(CountedRun run) : run_(std::move(run)) {}
   void on_read(const TagRead& read) override;
 
   [[nodiscard]] std::size_t satisfied() const;
-  /// Tags that a reader of another zone read.
+  /// Number of tags that a reader of another zone read.
   [[nodiscard]] std::size_t crossed() const { return crossed_.size(); }
 
  private:
-  /// Of one tag and antenna: Σ w, Σ w f, Σ w f² with w = 1/σφ² and frequencies f [MHz] off 900 MHz.
+  /// Sums over the reads of one tag by one antenna: Σ w, Σ w f, Σ w f² with w = 1/σφ² and
+  /// frequencies f [MHz] relative to 900 MHz.
   struct Link {
     double weight = 0.0;
     double first = 0.0;

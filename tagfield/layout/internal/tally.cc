@@ -7,17 +7,17 @@
 
 namespace tagfield {
 
-ToldSum ToldSum::with(const Told& one) const {
+InformationSum InformationSum::with(const Told& one) const {
   const bool tells = one.xx + one.yy > 0.0F;
   return {xx + static_cast<double>(one.xx), xy + static_cast<double>(one.xy),
           yy + static_cast<double>(one.yy), antennas + (tells ? 1 : 0)};
 }
 
-double ToldSum::error_m() const {
+double InformationSum::error_m() const {
   if (antennas < kFewestForPlace) return std::numeric_limits<double>::infinity();
   const double determinant = xx * yy - xy * xy;
   const double trace = xx + yy;
-  // Of one direction alone only rounding is left of the determinant.
+  // With information in only one direction, the determinant is nothing but rounding error.
   if (!(determinant > 1e-12 * trace * trace)) return std::numeric_limits<double>::infinity();
   return std::sqrt(trace / determinant);
 }
@@ -77,7 +77,7 @@ double Tally::gain(std::size_t option) const {
       break;
     case Worth::kPlace:
       for (const Told& one : other.told) {
-        const ToldSum& before = told_[one.element];
+        const InformationSum& before = told_[one.element];
         gain += worth_of_place(one.element, before.with(one)) - worth_of_place(one.element, before);
       }
       break;
@@ -124,7 +124,7 @@ double Tally::worth_of_reads(std::size_t element, double reads) const {
   return problem_.elements[element].weight * (std::min(reads, problem_.cap) / problem_.cap);
 }
 
-double Tally::worth_of_place(std::size_t element, const ToldSum& told) const {
+double Tally::worth_of_place(std::size_t element, const InformationSum& told) const {
   const double before = 1.0 / (problem_.spread_m * problem_.spread_m);
   const double aim = 8.0 / (problem_.error_m * problem_.error_m);
   const double xx = told.xx + before;

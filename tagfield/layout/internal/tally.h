@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What each element of a selection has of some options, and what that is worth.
+/// What each element of a selection gets from the chosen options, and what that is worth.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +10,26 @@
 
 namespace tagfield {
 
-/// What several antennas tell of a place; in doubles, as some tell far more than others.
-struct ToldSum {
+/// Sum of several antennas' information about a position; in doubles, since some contribute far
+/// more than others.
+struct InformationSum {
   double xx = 0.0;
   double xy = 0.0;
   double yy = 0.0;
-  std::size_t antennas = 0;  ///< That tell anything.
+  std::size_t antennas = 0;  ///< With nonzero information.
 
-  [[nodiscard]] ToldSum with(const Told& one) const;
+  [[nodiscard]] InformationSum with(const Told& one) const;
   /// As error_bound_m().
   [[nodiscard]] double error_m() const;
 };
 
-/// The options of a choice, one after the other. Keeps a reference to the problem.
+/// Accumulates the options of a choice one by one. Keeps a reference to the problem.
 class Tally {
  public:
   explicit Tally(const SelectionProblem& problem, const OptionSet& choice = {});
 
   void take(std::size_t option);
-  /// What the score gains by one option more.
+  /// Gain in score by one more option.
   [[nodiscard]] double gain(std::size_t option) const;
   [[nodiscard]] double score() const;
   /// As met_by().
@@ -37,13 +38,13 @@ class Tally {
  private:
   [[nodiscard]] double worth_of_miss(std::size_t element, double miss) const;
   [[nodiscard]] double worth_of_reads(std::size_t element, double reads) const;
-  [[nodiscard]] double worth_of_place(std::size_t element, const ToldSum& told) const;
+  [[nodiscard]] double worth_of_place(std::size_t element, const InformationSum& told) const;
 
   const SelectionProblem& problem_;
-  // Of the three, by element, the one that the problem asks for.
+  // By element; only the one used by the problem's worth is filled.
   std::vector<double> miss_;
   std::vector<double> reads_;
-  std::vector<ToldSum> told_;
+  std::vector<InformationSum> told_;
 };
 
 }  // namespace tagfield

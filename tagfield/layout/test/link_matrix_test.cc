@@ -34,7 +34,7 @@ TEST(LinkMatrix, HasAStateForEachPlaceAndCarrier) {
   ASSERT_EQ(to_plan.plan.mounts.size(), 9U);
   EXPECT_EQ(matrix.columns.size(), 9U);
   EXPECT_EQ(matrix.rows.size(), 36U * 12U);
-  // The same as the link itself, to the quarter of a dB that it is kept in.
+  // Equal to the link itself, up to the stored resolution of a quarter of a dB.
   const LinkRow& row = matrix.rows[100];
   const PlanMount& mount = to_plan.plan.mounts[4];
   const RadioModel& model = *physical(mount.antenna);
@@ -46,7 +46,7 @@ TEST(LinkMatrix, HasAStateForEachPlaceAndCarrier) {
   const TagEnd tag{*to_plan.plan.tags[row.group].model, row.X_WT};
   const std::vector<double> margins = fading_margins_db(view, tag, carriers, 0, paths);
   const LinkStates states = matrix.states(4, 100);
-  for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+  for (std::size_t place = 0; place < kFadingPositions; ++place) {
     for (std::size_t carrier = 0; carrier < carriers.size(); ++carrier) {
       EXPECT_NEAR(states.margin_db(place, carrier), margins[place * carriers.size() + carrier],
                   0.25);
@@ -65,7 +65,7 @@ TEST(LinkMatrix, IsTheSameForAnyNumberOfThreadsAndFromDisk) {
   EXPECT_EQ(counts.kept, 0U);
   EXPECT_EQ(evaluated(to_plan, counts, links).steps, alone.steps);
   EXPECT_EQ(counts.kept, 9U);
-  // What is not whole is computed again.
+  // An incomplete column is computed again.
   const auto first = *std::filesystem::directory_iterator(links);
   std::filesystem::resize_file(first.path(), 30);
   LinkMatrixCounts again;
@@ -86,7 +86,7 @@ TEST(LinkMatrix, OfAnotherScenarioIsNotTakenFromDisk) {
       load_scenario_to_plan(folder_of_test().with("store.yaml", other), {}, unheard);
   evaluated(stronger, counts, links);
   EXPECT_EQ(counts.kept, 0U);
-  // The margin is taken off where it is asked for, not in what is kept.
+  // The margin is subtracted on use, not in the cache.
   evaluated(store("  margin_db: 3\n"), counts, links);
   EXPECT_EQ(counts.kept, 9U);
 }

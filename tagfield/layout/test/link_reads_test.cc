@@ -24,11 +24,11 @@ RadioModel model_in(Session session) {
 }
 
 TEST(LinkReads, ATagWhoseFlagLastsIsReadOnceInThatTime) {
-  // Turns of 0.2 s each 0.8 s; in S1 a flag lasts 2 s, with power or without: each third turn, 7 of
-  // 20. In S2 it lasts 10 s without power, and power comes back before.
+  // Turns of 0.2 s every 0.8 s. In S1 a flag lasts 2 s, with or without power: a read in every
+  // third turn, in 7 turns of 20. In S2 it lasts 10 s without power, and power returns before that.
   EXPECT_DOUBLE_EQ(reads_a_turn(model_in(Session::kS1), 15.0, 4, 1), 7.0 / 20.0);
   EXPECT_DOUBLE_EQ(reads_a_turn(model_in(Session::kS2), 15.0, 4, 1), 1.0 / 20.0);
-  // In S0 once each time that power comes back.
+  // In S0 once each time that power returns.
   EXPECT_DOUBLE_EQ(reads_a_turn(model_in(Session::kS0), 15.0, 4, 1), 1.0);
 }
 
@@ -36,22 +36,22 @@ TEST(LinkReads, ManyTagsShareTheSlotsThatThereAre) {
   const RadioModel model = model_in(Session::kS0);
   const double of_500 = 500.0 * reads_a_turn(model, 15.0, 4, 500);
   const double of_1000 = 1000.0 * reads_a_turn(model, 15.0, 4, 1000);
-  EXPECT_LT(of_500, 250.0);  // Turns of 0.2 s, and far under a tag a millisecond.
+  EXPECT_LT(of_500, 250.0);  // Turns of 0.2 s, at far less than a tag per millisecond.
   EXPECT_NEAR(of_1000 / of_500, 1.0, 0.25);
 }
 
 TEST(LinkReads, WithoutAnInventoryEachUpdateReads) {
   RadioModel model = model_in(Session::kS1);
   model.gen2.reset();
-  // In a second: its rate, whatever the other ports do.
+  // Reads per second: its rate, whatever the other ports do.
   for (const std::size_t ports : {std::size_t{1}, std::size_t{4}}) {
     const double turns = 1.0 / (0.2 * static_cast<double>(ports));
     EXPECT_NEAR(turns * reads_a_turn(model, 15.0, ports, 100), 15.0, 1e-9);
   }
 }
 
-/// √tr of the inverse information of x and y, with an unknown offset for each antenna, all of it at
-/// once.
+/// √tr of the inverse information of x and y, with an unknown offset for each antenna, computed
+/// directly.
 double plainly(const std::vector<Eigen::Vector3d>& antennas, const Eigen::Vector3d& p_WT,
                const std::vector<double>& carriers_hz, double sigma_rad) {
   const auto count = static_cast<Eigen::Index>(antennas.size());
@@ -79,7 +79,7 @@ TEST(LinkReads, TellOfAPlaceWhatTheWholeInformationMatrixDoes) {
   for (const double carrier : carriers) spread += std::pow(carrier - mean, 2);
   std::vector<Told> told;
   for (const Eigen::Vector3d& p_WA : antennas) {
-    told.push_back(told_along(information_of_phases(spread / 0.01), p_WA, p_WT));
+    told.push_back(information_along(information_of_phases(spread / 0.01), p_WA, p_WT));
   }
   EXPECT_NEAR(error_bound_m(told) / plainly(antennas, p_WT, carriers, 0.1), 1.0, 1e-5);
 }
@@ -87,14 +87,14 @@ TEST(LinkReads, TellOfAPlaceWhatTheWholeInformationMatrixDoes) {
 TEST(LinkReads, TellLessWhereTheyAreWeak) {
   const RadioModel model = model_in(Session::kS1);
   const auto states = [](double margin_db) {
-    return LinkStates(std::vector<double>(kFadingPlaces * 8, margin_db));
+    return LinkStates(std::vector<double>(kFadingPositions * 8, margin_db));
   };
-  const RangeTold strong = range_told(model, states(20.0), 0.0, 2.0);
-  const RangeTold weak = range_told(model, states(1.0), 0.0, 2.0);
+  const RangeInformation strong = range_information(model, states(20.0), 0.0, 2.0);
+  const RangeInformation weak = range_information(model, states(1.0), 0.0, 2.0);
   EXPECT_GT(strong.precision, 2.0 * weak.precision);
-  EXPECT_DOUBLE_EQ(range_told(model, states(20.0), 19.0, 2.0).precision, weak.precision);
-  EXPECT_EQ(range_told(model, states(1.0), 2.0, 2.0).precision, 0.0);
-  // 40 dB a decade at 2 m are 8.7 dB a meter, which 4 dB of fading tell to 0.46 m.
+  EXPECT_DOUBLE_EQ(range_information(model, states(20.0), 19.0, 2.0).precision, weak.precision);
+  EXPECT_EQ(range_information(model, states(1.0), 2.0, 2.0).precision, 0.0);
+  // 40 dB per decade are 8.7 dB/m at 2 m, so 4 dB of fading give 0.46 m.
   EXPECT_NEAR(1.0 / std::sqrt(strong.by_strength), 0.46, 0.005);
   const Told once = told_by(strong, 1.0, 0.0, {0, 0, 0}, {2, 0, 0});
   EXPECT_NEAR(once.xx, strong.by_strength, 1e-4 * strong.by_strength);
@@ -106,7 +106,7 @@ TEST(LinkReads, SpreadOverTheChannelsThatAreVisited) {
   RadioModel one = model;
   one.plan = fixed_plan(915e6);
   EXPECT_EQ(expected_spread(one, 30.0, 30.0), 0.0);
-  // Against sets of six of the fifty channels, drawn at random, five reads on each.
+  // Compare with random sets of six of the fifty channels, with five reads on each.
   RandomStream stream(1, Purpose::kPlaces);
   double mean = 0.0;
   constexpr int kDraws = 4000;
@@ -125,7 +125,7 @@ TEST(LinkReads, SpreadOverTheChannelsThatAreVisited) {
     }
     mean += counted.spread() / kDraws;
   }
-  // 2 % are those of drawing without putting back, (N−1)/N, and chance is under 1 %.
+  // 2 % come from drawing without replacement, (N−1)/N; the random error is under 1 %.
   EXPECT_NEAR(expected_spread(model, 30.0, 6.0) / mean, 1.0, 0.04);
 }
 

@@ -80,7 +80,7 @@ TEST(AntennaPlan, StopsWhereTheAimIsReached) {
 }
 
 TEST(AntennaPlan, ChoosesTheCheapestThatIsEnough) {
-  // One good mount that costs more than two poor ones.
+  // One good mount costs more than two poor ones.
   const std::string text =
       "name: row\nmodel: link_budget\nduration_s: 2\n"
       "plan:\n"
@@ -116,7 +116,7 @@ TEST(AntennaPlan, SaysWhichLimitIsAtFault) {
   };
   EXPECT_NE(complaint_of(with_limits("{cost: 50}")).find("plan.limits.cost allows no antenna"),
             std::string::npos);
-  // A tag that no power reaches.
+  // Tags that no power reaches.
   std::string far = small_store();
   const std::string box = "[0, 0, 0.5, 5, 3, 1.5]";
   far.replace(far.find(box), box.size(), "[900, 0, 0.5, 901, 3, 1.5]");
@@ -140,7 +140,8 @@ TEST(AntennaPlan, IsWithinItsRangeOfFullSimulations) {
   RunControl control;
   const PlanCheck check = check_plan(all.to_plan, all.plan.layouts.back(), 1, 20, control);
   ASSERT_EQ(check.read.size(), 20U);
-  // 95 % of runs are within the range: of 20, fewer than 16 are with probability 0.003.
+  // 95 % of runs are within the range: for 20 runs, the probability that fewer than 16 are is
+  // 0.003.
   EXPECT_GE(check.inside, 16U);
 }
 
@@ -158,7 +159,8 @@ TEST(AntennaPlan, AimsAtReads) {
   EXPECT_GE(check.inside, 16U);
 }
 
-/// A room with mounts at its corners and in the middle of its walls, and a reader that hops far.
+/// A room with mounts at its corners and in the middle of its walls, and a reader that hops over a
+/// wide band.
 std::string room_to_locate_in(const std::string& aim) {
   return "name: room\nmodel: link_budget\nduration_s: 10\n"
          "plan:\n"
@@ -178,7 +180,7 @@ TEST(AntennaPlan, AimsAtPlaces) {
   const Planned all = planned(room_to_locate_in("  aim: {position_error_m: 0.03, share: 1}\n"));
   const AntennaPlan& plan = all.plan;
   const PlannedLayout& layout = plan.layouts[plan.chosen];
-  // Two distances leave two places.
+  // Two distances leave two possible positions.
   ASSERT_GE(layout.antennas.size(), 3U);
   EXPECT_DOUBLE_EQ(plan.layouts[1].read.mean, 0.0);
   EXPECT_DOUBLE_EQ(layout.read.mean, 9.0);
@@ -188,7 +190,7 @@ TEST(AntennaPlan, AimsAtPlaces) {
   for (const double error_m : plan.layouts[1].errors_m) EXPECT_TRUE(std::isinf(error_m));
   const PlanCheck check = check_plan(all.to_plan, layout, 1, 5, {});
   EXPECT_EQ(check.read, std::vector<double>(5, 9.0));
-  // What no antenna can tell is not claimed.
+  // An aim that no antennas can meet is not claimed.
   const AntennaPlan never =
       planned(room_to_locate_in("  aim: {position_error_m: 0.001, share: 1}\n")).plan;
   EXPECT_FALSE(never.reaches_aim);
@@ -205,7 +207,8 @@ TEST(AntennaPlan, BadAimsAreErrors) {
             std::string::npos);
 }
 
-/// An antenna that reads a near shelf of its own zone and, 3 m away with some 2 dB left, another's.
+/// An antenna that reads a near shelf of its own zone and, with a margin of some 2 dB at 3 m, one
+/// of another zone.
 std::string two_zones(const std::string& limits) {
   return "name: zones\nmodel: link_budget\nduration_s: 2\n"
          "plan:\n"
@@ -228,7 +231,7 @@ TEST(AntennaPlan, CountsCrossReadsWithoutTheMarginToSpare) {
   const Planned all = planned(two_zones(""));
   const PlannedLayout& layout = all.plan.layouts.back();
   ASSERT_EQ(layout.zones.size(), 2U);
-  // With 6 dB less only its own are read; as links are, the others are read, too.
+  // With 6 dB less, only its own tags are read; without the margin, the others are read, too.
   EXPECT_DOUBLE_EQ(layout.read.mean, 6.0);
   EXPECT_DOUBLE_EQ(layout.cross.mean, 6.0);
   EXPECT_DOUBLE_EQ(layout.zones[1].cross.mean, 6.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Small problems of selection, drawn at random.
+/// Small random selection problems.
 #pragma once
 
 #include <cmath>
@@ -12,8 +12,9 @@
 
 namespace tagfield {
 
-/// `options` on two thirds as many sites, in two zones, over `elements`; every third problem has no
-/// limit but the number of antennas, the others have readers, a cost, a cap, and cross reads.
+/// `options` on two thirds as many sites, in two zones, over `elements`. Every third problem limits
+/// only the number of antennas; the others also limit readers, cost and cross reads, and have a
+/// cap.
 inline SelectionProblem random_problem(std::uint64_t number, std::size_t options,
                                        std::size_t elements) {
   RandomStream stream(number, Purpose::kPlaces);
@@ -35,10 +36,10 @@ inline SelectionProblem random_problem(std::uint64_t number, std::size_t options
     for (std::size_t element = 0; element < elements; ++element) {
       const bool is_own = !has_limits || problem.elements[element].zone == option.zone;
       if (uniform(stream) > (is_own ? 0.45 : 0.1)) continue;
-      // Now and then an element is never missed.
+      // Some elements are never missed.
       const double miss = uniform(stream) < 0.1 ? 0.0 : uniform(stream);
       option.misses.push_back({static_cast<std::uint32_t>(element), static_cast<float>(miss)});
-      // With links that are better than what is counted on.
+      // With better links than those counted on for reads.
       if (!is_own) {
         option.crossings.push_back(option.misses.back());
         option.crossings.back().probability *= 0.9F;
@@ -57,8 +58,8 @@ inline SelectionProblem random_problem(std::uint64_t number, std::size_t options
   return problem;
 }
 
-/// The same where reads or places count: each option that may read an element does so a few times,
-/// or tells of it in some direction.
+/// The same for Worth::kReads and Worth::kPlace: each option that may read an element does so a few
+/// times, or gives information about its position in some direction.
 inline SelectionProblem random_problem(std::uint64_t number, std::size_t options,
                                        std::size_t elements, Worth worth) {
   SelectionProblem problem = random_problem(number, options, elements);

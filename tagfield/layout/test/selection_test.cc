@@ -19,7 +19,7 @@ OptionSet sorted(std::vector<std::size_t> order) {
   return order;
 }
 
-/// Two options that read half of one element each, one that reads the other.
+/// Two options that each read the first element with probability ½, and one that reads the second.
 SelectionProblem three_options() {
   SelectionProblem problem;
   problem.elements = {{0.5}, {0.5}};
@@ -38,7 +38,7 @@ TEST(Selection, ScoresByMissesMultiplied) {
   EXPECT_DOUBLE_EQ(score_of(problem, {0, 1}), 0.375);
   EXPECT_DOUBLE_EQ(score_of(problem, {0, 1, 2}), 0.5);
   EXPECT_EQ(met_by(problem, {0, 1, 2}), (std::vector<double>{0.75, 0.25}));
-  // Beyond the cap more is worth nothing.
+  // Above the cap, more is worth nothing.
   problem.cap = 0.5;
   EXPECT_DOUBLE_EQ(score_of(problem, {0, 1}), 0.5);
   EXPECT_EQ(greedy_order(problem), (std::vector<std::size_t>{0, 2}));
@@ -102,16 +102,16 @@ TEST(Selection, CountsWhatIsToldOfPlaces) {
   problem.options[0].told = {{0, 100.0F, 0.0F, 0.0F}};
   problem.options[1].told = {{0, 0.0F, 0.0F, 25.0F}};
   problem.options[2].told = {{0, 50.0F, 50.0F, 50.0F}};
-  // ½ of ln det J/J₀ over that of an error of 0.1 m: 1/200 m² along each axis.
+  // Half of ln det J/J₀ relative to that for an error of 0.1 m: 1/200 m² along each axis.
   EXPECT_NEAR(score_of(problem, {0}), 0.5 * std::log(101.0) / (2.0 * std::log(200.0)), 1e-12);
   EXPECT_NEAR(score_of(problem, {0, 1}), 0.5 * std::log(101.0 * 26.0) / (2.0 * std::log(200.0)),
               1e-12);
-  // Two distances leave two places; of three, √tr J⁻¹ with J = [150 50; 50 75].
+  // Two distances leave two possible positions; for three, √tr J⁻¹ with J = [150 50; 50 75].
   const SelectionOption* const all = problem.options.data();
   EXPECT_TRUE(std::isinf(error_bound_m({all[0].told[0], all[1].told[0]})));
   EXPECT_NEAR(error_bound_m({all[0].told[0], all[1].told[0], all[2].told[0]}),
               std::sqrt(225.0 / (150.0 * 75.0 - 2500.0)), 1e-9);
-  // Three antennas one behind the other tell one direction.
+  // Three antennas in a line give information in one direction only.
   EXPECT_TRUE(std::isinf(error_bound_m({all[0].told[0], all[0].told[0], all[0].told[0]})));
   EXPECT_EQ(met_by(problem, {0, 1, 2}), (std::vector<double>{1.0, 0.0}));
   problem.error_m = 0.15;
@@ -128,7 +128,7 @@ TEST(Selection, GreedIsWithinItsBoundsOfTheBest) {
     const double score = score_of(problem, greedy);
     EXPECT_EQ(broken_limit(problem, greedy), Limit::kNone) << number;
     EXPECT_LE(score, best + 1e-9) << number;
-    // What is computed for the case holds for all choices within the limits.
+    // The bound computed for this problem holds for all choices within the limits.
     EXPECT_GE(upper_bound(problem, greedy), best - 1e-9) << number;
     if (const auto share = guaranteed_share(problem)) {
       EXPECT_GE(score, *share * best - 1e-9) << number;
@@ -140,7 +140,7 @@ TEST(Selection, GreedIsWithinItsBoundsOfTheBest) {
   }
 }
 
-/// Without laziness.
+/// Greedy selection without lazy evaluation.
 std::vector<std::size_t> plainly_greedy(const SelectionProblem& problem) {
   std::vector<std::size_t> order;
   OptionSet choice;
@@ -170,7 +170,7 @@ TEST(Selection, LazinessChangesNothing) {
   }
 }
 
-/// Submodular: an option adds no more to a choice than to a part of it.
+/// Submodularity: an option adds no more to a choice than to a subset of it.
 RC_GTEST_PROP(Selection, GainsOnlyShrink, ()) {
   const auto number = *rc::gen::inRange<std::uint64_t>(0, 1000);
   const Worth worth = kAllWorths[*rc::gen::inRange<std::size_t>(0, 3)];

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A shelf with a ceiling over it, small enough to plan in a test.
+/// A shelf under a ceiling, small enough to plan in a test.
 #pragma once
 
 #include <string>
 
 namespace tagfield {
 
-/// 24 places of tags that hang any way, 9 mounts that look down from 3 m.
+/// 24 tag positions with any orientation, 9 mounts facing down from 3 m.
 inline std::string small_store(const std::string& more = "") {
   return "name: store\nmodel: link_budget\nduration_s: 2\n"
          "plan:\n"

@@ -4,7 +4,7 @@
 namespace tagfield {
 namespace {
 
-/// So much behind that nobody expects it to be made up for.
+/// Lag above which the simulation does not catch up.
 constexpr std::chrono::milliseconds kMostLag(500);
 constexpr std::chrono::seconds kPaceOver(1);
 

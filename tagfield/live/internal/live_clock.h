@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// When a live world's steps are due on the wall.
+/// When a live world's steps are due in wall-clock time.
 #pragma once
 
 #include <chrono>
@@ -9,13 +9,13 @@
 
 namespace tagfield {
 
-/// Maps simulated time to the wall clock's, which is handed in. Where the simulation falls behind,
-/// what it lacks by then is not made up for: it goes on at its speed from there.
+/// Maps simulated time to wall-clock time, which is passed in. A simulation that falls more than
+/// half a second behind does not catch up: it continues at its speed from there.
 class LiveClock {
  public:
   using Wall = std::chrono::steady_clock::time_point;
 
-  /// `speed`: multiple of real time, 0 for as fast as it can.
+  /// `speed`: multiple of real time, 0 for as fast as possible.
   LiveClock(double speed, bool is_paused);
 
   [[nodiscard]] double speed() const { return speed_; }
@@ -23,12 +23,12 @@ class LiveClock {
   void set_speed(double speed, Time now, Wall wall);
   void pause();
   void resume(Time now, Wall wall);
-  /// Until `until`, and is paused then.
+  /// Runs until `until`, then pauses.
   void run_until(Time until, Time now, Wall wall);
 
-  /// When the step that ends at `end` may end.
+  /// Wall-clock time at which the step that ends at `end` may end.
   [[nodiscard]] Wall due(Time end) const;
-  /// The step that ended at `now` is over at `wall`.
+  /// Records that the step that ended at `now` was completed at `wall`.
   void stepped(Time now, Wall wall);
   /// Simulated over real time, over the last second or so.
   [[nodiscard]] double pace(Time now, Wall wall) const;
@@ -41,7 +41,7 @@ class LiveClock {
   Time until_;
   Time anchor_{};
   Wall anchor_wall_{};
-  // The present second, and what came of the one before.
+  // The current second, and the pace of the previous one.
   Time second_{};
   Wall second_wall_{};
   double pace_ = 0.0;

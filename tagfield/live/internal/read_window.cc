@@ -7,9 +7,9 @@
 namespace tagfield {
 namespace {
 
-/// Fewer new reads change no estimate that anybody would notice.
+/// Fewer new reads would hardly change an estimate.
 constexpr std::size_t kLeastFresh = 5;
-/// However many tags there are, a pass of one keeps so many reads.
+/// Least number of reads kept per tag, however many tags there are.
 constexpr std::size_t kLeastShare = 100;
 
 }  // namespace
@@ -47,7 +47,7 @@ void ReadWindow::add(const TagRead& read) {
   while (tag.reads.size() > share()) drop_oldest(tag);
 }
 
-/// Now and then, so that tags and poses that nobody asks for any more go, too.
+/// Called from time to time, so that tags that are no longer read are dropped, too.
 void ReadWindow::sweep() {
   swept_ = newest_;
   for (auto entry = tags_.begin(); entry != tags_.end();) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The last minutes of reads and antenna poses, from which tags are located again and again.
+/// The last minutes of reads and antenna poses, from which tags are repeatedly located.
 #pragma once
 
 #include <cstddef>
@@ -16,40 +16,40 @@
 
 namespace tagfield {
 
-/// What some tags are to be located from.
+/// Input for locating some tags.
 struct WindowedReads {
   std::vector<TagRead> reads;
   std::vector<AntennaPose> poses;
 };
 
-/// Keeps, of what came within `length` of the newest stamp, at most `most_reads` in all, each tag
-/// an equal share; a tag loses its oldest.
+/// Keeps the reads and poses within `length` of the newest timestamp, at most `most_reads` reads in
+/// all, divided equally among the tags, but at least 100 each. A tag loses its oldest reads first.
 class ReadWindow {
  public:
   ReadWindow(Duration length, std::size_t most_reads) : length_(length), most_reads_(most_reads) {}
 
   void add(const TagRead& read);
-  /// An antenna's pose X_WA. Of one at rest only the last counts; what it read from elsewhere is
-  /// forgotten.
+  /// Adds an antenna's pose X_WA. For a fixed antenna only the last one counts, and reads from
+  /// other poses are forgotten.
   void add(const AntennaPose& pose, bool is_fixed);
   void clear();
 
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// Reads of those tags of which the largest share is new since they were last taken, `most` at
-  /// most, and the poses of their antennas. A tag's turn comes once five reads, and a tenth of all
-  /// it has, are new.
+  /// Takes the reads of at most `most` tags, those with the largest fraction of reads new since
+  /// last taken, and the poses of their antennas. A tag becomes due once at least five of its
+  /// reads, and a tenth of them, are new.
   WindowedReads take(std::size_t most);
 
  private:
   struct Read {
     Time stamp;
-    std::uint32_t antenna;  ///< In antennas_.
+    std::uint32_t antenna;  ///< Index into antennas_.
     double frequency_hz, phase_rad, rssi_dbm;
   };
   struct Tag {
     std::deque<Read> reads;
-    std::size_t fresh = 0;  ///< How many of the last have not been taken.
+    std::size_t fresh = 0;  ///< Number of the latest reads not yet taken.
   };
   struct Antenna {
     std::string name, reader;
@@ -66,7 +66,7 @@ class ReadWindow {
 
   Duration length_;
   std::size_t most_reads_;
-  std::size_t size_ = 0;  ///< Of all reads.
+  std::size_t size_ = 0;  ///< Total number of reads.
   Time newest_{};
   Time swept_{};
   std::map<std::string, Tag> tags_;

@@ -44,7 +44,7 @@ TEST(LiveClock, RunsUntilAndIsPausedThen) {
 TEST(LiveClock, WhatItFellBehindIsNotMadeUpFor) {
   LiveClock clock(1.0, false);
   clock.set_speed(1.0, at(0.0), wall(seconds(0)));
-  clock.stepped(at(0.1), wall(milliseconds(400)));  // a little: it catches up
+  clock.stepped(at(0.1), wall(milliseconds(400)));  // a small lag: it catches up
   EXPECT_EQ(clock.due(at(0.2)), wall(milliseconds(200)));
   clock.stepped(at(0.2), wall(seconds(9)));
   EXPECT_EQ(clock.due(at(0.3)), wall(seconds(9) + milliseconds(100)));

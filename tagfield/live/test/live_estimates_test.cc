@@ -22,7 +22,7 @@ AntennaInfo antenna_info() {
   return antenna;
 }
 
-/// Along x for 4 m, then along y, at half a metre a second.
+/// Along x for 4 m, then along y, at 0.5 m/s.
 Eigen::Vector3d place_at(double seconds) {
   const double way = 0.5 * seconds;
   return way < 4.0 ? Eigen::Vector3d(way, 0.0, 1.0) : Eigen::Vector3d(4.0, way - 4.0, 1.0);
@@ -79,7 +79,7 @@ LiveEstimateOptions by(const std::string& method) {
 
 TEST(LiveEstimates, PlaceAndCertaintyGrowWithTheWay) {
   LiveEstimates estimates(by("ml"));
-  tell(estimates, drive(0.0, 7.5));  // Straight: two places are as good.
+  tell(estimates, drive(0.0, 7.5));  // Straight: two positions are equally good.
   wait_until_idle(estimates);
   ASSERT_EQ(estimates.since(0).size(), 1U);
   EXPECT_NE(estimates.since(0)[0].estimate.verdict, Verdict::kLocated);
@@ -117,7 +117,7 @@ TEST(LiveEstimates, AreWhatTheWindowsReadsSay) {
   ASSERT_EQ(offline.estimates.size(), 1U);
   EXPECT_EQ(live.estimate.verdict, offline.estimates[0].verdict);
   ASSERT_FALSE(live.estimate.candidates.empty());
-  // Poses told after the last read may or may not have been there.
+  // Poses sent after the last read may or may not have been included.
   EXPECT_NEAR((live.estimate.candidates[0].p_WT - offline.estimates[0].candidates[0].p_WT).norm(),
               0.0, 1e-6);
 }

@@ -16,7 +16,7 @@
 namespace tagfield {
 namespace {
 
-/// Does one thing at one moment each, and ends the run.
+/// Runs a task at each given time, then ends the run.
 class Script final : public LiveMember {
  public:
   void at(double seconds, LiveWorld::Task task) {
@@ -46,7 +46,7 @@ LiveOptions fast() {
   return options;
 }
 
-/// Four antennas on one reader, with Gen2, in a room; without noise and steps of RSSI.
+/// Four antennas on one reader, with Gen2, in a room; without noise and RSSI quantization.
 Scenario portal() {
   Diagnostics diagnostics;
   return load_scenario_with_world(
@@ -126,11 +126,11 @@ TEST(LiveWorld, ADutyChangesWhoSendsAndHowStrongly) {
   EXPECT_GT(reads_between(recording, 1.0, 2.0, "port_1"), 50);
   EXPECT_EQ(reads_between(recording, 1.0, 3.0), reads_between(recording, 1.0, 3.0, "port_1"));
   EXPECT_EQ(reads_between(recording, 3.0, 4.0), 0);
-  // What is sent comes back: so much weaker there, so much weaker here.
+  // Backscatter: 3 dB less transmit power weakens the reply by 3 dB.
   EXPECT_NEAR(mean_rssi(recording, "port_1", "tag_01", 1.0, 2.0) -
                   mean_rssi(recording, "port_1", "tag_01", 2.0, 3.0),
               3.0, 1e-9);
-  // Inventories go on until the very moment: the last reads come from a slot before it.
+  // Inventories continue until that very moment: the last reads come from a slot just before it.
   EXPECT_GT(to_seconds(recording.reads.back().stamp), 2.98);
   EXPECT_LT(to_seconds(recording.reads.front().stamp), 1.02);
 }

@@ -29,7 +29,7 @@ TEST(ReadWindow, HoldsWhatIsNoOlderThanItsLength) {
     window.add(read_at(0.25 * i, "a"));
   }
   const WindowedReads taken = window.take(10);
-  ASSERT_EQ(taken.reads.size(), 41U);  // 15 s to 25 s, each quarter of a second
+  ASSERT_EQ(taken.reads.size(), 41U);  // 15 s to 25 s, every quarter of a second
   EXPECT_EQ(taken.reads.front().stamp, time_from_seconds(15.0));
   EXPECT_EQ(taken.reads.front().antenna, "left");
   EXPECT_EQ(taken.reads.front().reader, "reader");

@@ -36,7 +36,7 @@ TEST(ReaderDuty, ReplacesWhatItNamesAndNothingElse) {
   EXPECT_EQ(model.plan.carriers_hz, physical(before)->plan.carriers_hz);
   EXPECT_EQ(model.gen2->link.blf_hz, physical(before)->gen2->link.blf_hz);
   EXPECT_TRUE(warnings.empty());
-  EXPECT_EQ(physical(before)->transmit_power_dbm, 30.0);  // the mounted one is as it was
+  EXPECT_EQ(physical(before)->transmit_power_dbm, 30.0);  // the antenna itself is unchanged
 }
 
 TEST(ReaderDuty, WarnsOfWhatHasNoEffect) {

@@ -24,10 +24,10 @@ Complex unit(const Complex& value) {
   return std::abs(value) > 0.0 ? value / std::abs(value) : Complex(1.0, 0.0);
 }
 
-/// The phases of a tag at a known place, its distance taken out.
+/// The phases of a tag at a known position, with its distance removed.
 using ReducedOffsets = std::map<double, Complex>;
 
-/// By antenna, of each reference tag.
+/// Per antenna, one entry for each reference tag.
 std::map<std::string, std::vector<ReducedOffsets>> reduced_references(
     const LocalizationProblem& problem) {
   std::map<std::string, std::vector<ReducedOffsets>> all;
@@ -46,7 +46,8 @@ std::map<std::string, std::vector<ReducedOffsets>> reduced_references(
   return all;
 }
 
-/// A port's offsets: each tag's turn and each channel's in turns, from the tag with most channels.
+/// A port's offsets: estimates the turns of the tags and of the channels alternately, starting from
+/// the tag with the most channels.
 std::map<double, ChannelTurn> offsets_by(std::vector<ReducedOffsets> references) {
   std::sort(references.begin(), references.end(),
             [](const ReducedOffsets& a, const ReducedOffsets& b) { return a.size() > b.size(); });
@@ -72,7 +73,7 @@ std::map<double, ChannelTurn> offsets_by(std::vector<ReducedOffsets> references)
   return offsets;
 }
 
-/// Channels with offsets, those taken out.
+/// Channels with known offsets, with the offsets removed.
 struct Channels {
   Eigen::VectorXcd phases;
   Eigen::VectorXd wavenumbers, reads, references;
@@ -101,8 +102,9 @@ Channels channels_of(const FixedReads& reads, const std::map<double, ChannelTurn
   return channels;
 }
 
-/// Covariance of the phases with the distance taken out: one wave of any phase, diffuse waves that
-/// come later (an exponential law of delays), and noise; those of the references besides.
+/// Covariance of the phases with the distance removed: one wave of any phase, diffuse waves that
+/// arrive later (exponentially distributed delays), and noise; plus the diffuse waves and noise of
+/// the references.
 Eigen::MatrixXcd covariance_of(const Channels& channels, const PhaseField& field) {
   const Eigen::Index n = channels.phases.size();
   const double direct = std::max(1.0 - field.diffuse - field.noise, 1e-3);
@@ -112,7 +114,7 @@ Eigen::MatrixXcd covariance_of(const Channels& channels, const PhaseField& field
   Eigen::MatrixXcd covariance(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
-      // A wavenumber there and back is 4πf/c: late by τ is 2πΔf τ.
+      // The round-trip wavenumber is 4πf/c, so a delay τ turns the phase by 2πΔf τ.
       const double turn =
           0.5 * kSpeedOfLight * (channels.wavenumbers[i] - channels.wavenumbers[j]) * field.delay_s;
       const Complex late = 1.0 / Complex(1.0, -turn);
@@ -123,7 +125,7 @@ Eigen::MatrixXcd covariance_of(const Channels& channels, const PhaseField& field
   return covariance;
 }
 
-/// How far two channels' phases differ alike, over all tags and by antenna.
+/// Consistency of two channels' phase difference over all tags, per antenna.
 struct Agreement {
   double share = 0.0;
   double pairs = 0.0;
@@ -146,7 +148,7 @@ Agreement agreement_of(const std::vector<std::vector<FixedReads>>& tags, double 
   return agreement;
 }
 
-/// By how much the best of fifty pairs agrees better than it should: 2.2 standard deviations.
+/// Expected excess agreement of the best of fifty pairs: 2.2 standard deviations.
 double luck_of(const Agreement& agreement) {
   return 2.2 * (1.0 - agreement.share * agreement.share) / std::sqrt(2.0 * agreement.pairs);
 }
@@ -161,8 +163,8 @@ double spread_of(const std::vector<double>& values, double mean) {
   return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-/// The quadratic form of phases turned back by a distance is a sum of turns by differences of
-/// wavenumbers, of which a plan has few.
+/// The quadratic form of phases corrected for a distance is a sum of terms that turn with
+/// differences of wavenumbers, of which a channel plan has few.
 std::map<std::int64_t, Complex> form_by_difference(const Channels& channels,
                                                    const Eigen::MatrixXcd& inverse) {
   constexpr double kSameSlope = 1e-5;  // [rad/m]
@@ -196,7 +198,7 @@ ChannelTurns channel_offsets(const LocalizationProblem& problem) {
 
 bool is_out_of_order(const std::vector<std::vector<FixedReads>>& tags) {
   constexpr std::size_t kFewest = 10;    // Channels.
-  constexpr double kFewestPairs = 10.0;  // Tags that two channels were read of.
+  constexpr double kFewestPairs = 10.0;  // Tags read on both channels.
   constexpr double kClearly = 3.0;       // Standard errors.
   std::set<double> carriers;
   for (const auto& tag : tags) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a distance does to the phases of many channels: they fall apart by 4π Δf/c r. Each port's
-/// channels have offsets of their own, which only tags at known places or a calibration tell.
+/// Ranging by the phases of many channels, which spread with distance by 4π Δf/c r. Each channel of
+/// each port has its own phase offset, known only from tags at known positions or a calibration.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,45 +13,45 @@
 
 namespace tagfield {
 
-/// Of one channel of a port.
+/// Phase offset of one channel of a port.
 struct ChannelTurn {
-  std::complex<double> turn{1.0,
-                            0.0};  ///< e^(j offset), the same tag's in all channels but for one.
-  double references = 0.0;         ///< Tags that told it; 0: it is exact.
+  std::complex<double> turn{1.0, 0.0};  ///< e^(j offset), up to a turn common to all channels.
+  double references = 0.0;              ///< Number of tags that it was estimated from; 0: exact.
 };
 
 /// Offsets by antenna and carrier [Hz].
 using ChannelTurns = std::map<std::string, std::map<double, ChannelTurn>>;
 
-/// By the tags at known places and what is known beforehand (`offset_known`).
+/// Estimates the offsets from the tags at known positions and from prior knowledge
+/// (`offset_known`).
 ChannelTurns channel_offsets(const LocalizationProblem& problem);
 
-/// Whether phases show the carriers in another order than was told, as of a reader whose hop table
-/// was not asked for. Neighbours' phases differ by the same at all places; those of channels far
-/// apart differ by the distance. Of few tags or channels nothing is seen.
+/// Whether the phases contradict the given order of the carriers, as for a reader whose hop table
+/// was never queried. The phase difference of neighbouring channels is the same at all positions;
+/// that of distant channels varies with range. False if there are too few tags or channels to tell.
 bool is_out_of_order(const std::vector<std::vector<FixedReads>>& tags);
 
-/// How a hall bends phases: waves from everywhere of so much of the power, late by `delay_s` in the
-/// mean, and noise of a read. Shares of 1.
+/// Effect of a hall's multipath on phases: diffuse waves with this fraction of the power and this
+/// mean excess delay, and noise per read. `diffuse` and `noise` are fractions of 1.
 struct PhaseField {
   double diffuse = 0.0;
   double delay_s = 20e-9;
   double noise = 0.01;
 };
 
-/// ln of the likelihood over distances, but for a constant.
+/// ln of the likelihood over distances, up to a constant.
 struct RangeLikelihood {
   double first_m = 0.0, step_m = 0.0;
   Eigen::ArrayXd log;
 };
 
-/// Of the direct wave with diffuse ones, over phases alone (half of the complex normal law's
-/// logarithm: only one of the two quadratures is seen). Empty where fewer than three channels have
-/// offsets.
+/// Range likelihood under a model of a direct wave plus diffuse waves, from phases alone (half of
+/// the logarithm of the complex normal density: only one of the two quadratures is observed). Empty
+/// if fewer than three channels have offsets.
 RangeLikelihood range_likelihood(const FixedReads& reads, const ChannelTurns& offsets,
                                  const PhaseField& field, double most_m, double step_m);
 
-/// Greatest ln within `reach_m` of the distance.
+/// Maximum of the log-likelihood within `reach_m` of the distance.
 double most_likely(const RangeLikelihood& of, double distance_m, double reach_m);
 
 }  // namespace tagfield

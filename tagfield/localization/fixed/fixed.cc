@@ -16,7 +16,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kMostOfArea = 0.7;  ///< A place hardly better known than the area is none.
+constexpr double kMostOfArea = 0.7;  ///< Maximum expected error, in spreads of the area.
 
 Candidate candidate_of(const PosteriorPart& part, double height) {
   Candidate candidate;
@@ -96,7 +96,7 @@ LocalizationResult locate_from_fixed(const LocalizationProblem& problem, int thr
   return result;
 }
 
-/// The keys of its options.
+/// Keys of the options.
 const OptionTable<FixedOptions>& fixed_options() {
   using O = FixedOptions;
   static const OptionTable<O> of{with_lobe<O>(

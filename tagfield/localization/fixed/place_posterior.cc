@@ -9,11 +9,11 @@
 namespace tagfield {
 namespace {
 
-constexpr double kNegligible = 12.0;  ///< ln below the best under which cells are dropped.
-constexpr double kUncovered = 6.0;    ///< Likewise, of cells over which no part reaches.
-constexpr std::size_t kMany = 6000;   ///< Cells that are not split further.
+constexpr double kNegligible = 12.0;  ///< Cells this far below the best [ln] are dropped.
+constexpr double kUncovered = 6.0;    ///< Cells this far below the best belong to no part.
+constexpr std::size_t kMany = 6000;   ///< With more cells, none is split further.
 constexpr double kFinest = 2e-3;      ///< [m]
-constexpr double kLeastPart = 0.03;   ///< Of a part that is told.
+constexpr double kLeastPart = 0.03;   ///< Minimum share of a reported part.
 
 void keep(AreaCells& cells, const Eigen::ArrayXd& logs, double below) {
   const double least = logs.maxCoeff() - below;
@@ -46,7 +46,7 @@ void refine(const LogDensity& log_density, AreaCells& cells) {
   }
 }
 
-/// Numbers of the parts, by cell: neighbours, corners included, are one; -1 for none.
+/// Index of the part of each cell; -1: none. Neighbours, corners included, belong to the same part.
 std::vector<int> parts_of(const AreaCells& cells, const Eigen::ArrayXd& logs, int& count) {
   using Key = std::pair<long, long>;
   const auto key_of = [&](const Eigen::Vector3d& middle) {
@@ -93,7 +93,7 @@ PosteriorPart part_of(const AreaCells& cells, const Eigen::ArrayXd& weights,
   }
   part.mean /= part.share;
   part.covariance = part.covariance / part.share - part.mean * part.mean.transpose();
-  // Of a square by itself.
+  // Variance within a cell.
   part.covariance.diagonal().array() += cells.size_m * cells.size_m / 12.0;
   return part;
 }

@@ -10,15 +10,15 @@
 namespace tagfield {
 namespace {
 
-constexpr double kNearestCell = 0.1;        ///< Distances below this count as this [m].
-constexpr double kAnyLevel = 60.0;          ///< Standard deviation of the level beforehand [dB].
+constexpr double kNearestCell = 0.1;        ///< Smaller distances are clamped to this [m].
+constexpr double kAnyLevel = 60.0;          ///< Prior standard deviation of the level [dB].
 constexpr double kUsualLevel = -45;         ///< [dBm at 1 m]
-constexpr double kWorth = 4.0;              ///< So many strengths the fading's prior is worth.
+constexpr double kWorth = 4.0;              ///< Weight of the fading's prior, in RSSI values.
 constexpr int kLawRounds = 25;              ///< At most,
 constexpr double kSettled = 0.02;           ///< or until ln of the likelihood changes by less.
-constexpr double kNegligibleWeight = 1e-4;  ///< Weight of a cell.
+constexpr double kNegligibleWeight = 1e-4;  ///< Cells of less weight are skipped.
 
-/// What a tag tells of the law: its normal equations, and its share of the fading.
+/// A tag's contribution to the law: its normal equations, and its share of the fading.
 struct Told {
   Eigen::MatrixXd normal;
   Eigen::VectorXd right;
@@ -28,7 +28,7 @@ struct Told {
 
 Eigen::Index size_of(std::size_t antennas) { return static_cast<Eigen::Index>(antennas) + 2; }
 
-/// Rows of the linear law: strengths less gains = H θ.
+/// Rows of the linear law: RSSI − gains = H θ.
 Eigen::MatrixXd design(const TagOnGrid& tag, Eigen::Index cell, Eigen::Index size) {
   const auto count = static_cast<Eigen::Index>(tag.antennas.size());
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(count, size);
@@ -40,7 +40,7 @@ Eigen::MatrixXd design(const TagOnGrid& tag, Eigen::Index cell, Eigen::Index siz
   return rows;
 }
 
-/// Of fading and of the tag itself.
+/// Covariance due to fading and to the tag itself.
 Eigen::MatrixXd scatter(Eigen::Index count, double fading_db, double tag_sigma_db) {
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(count, count, tag_sigma_db * tag_sigma_db);
   covariance.diagonal().array() += fading_db * fading_db;
@@ -82,7 +82,7 @@ Told told_by(const TagOnGrid& tag, const StrengthLaw& law, const Eigen::ArrayXd&
   const double tag_variance = prior.tag_sigma_db * prior.tag_sigma_db;
   const Eigen::MatrixXd inverse =
       invert_symmetric(scatter(count, law.fading_db, prior.tag_sigma_db));
-  // Of the tag's own deviation, given the others' mean misfit.
+  // Gain that estimates the tag's own deviation from the sum of its misfits.
   const double gain =
       tag_variance / (law.fading_db * law.fading_db + static_cast<double>(count) * tag_variance);
   Told told{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0,
@@ -115,7 +115,7 @@ Told sum_of(const std::vector<Told>& all, Eigen::Index size) {
   return sum;
 }
 
-/// The prior's law with what was told, less what one tag told of it.
+/// The prior law updated with all contributions except that of one tag.
 StrengthLaw law_by(const StrengthLaw& before, const Told& told, const Told* without) {
   const Eigen::MatrixXd weights = invert_symmetric(before.covariance);
   Eigen::MatrixXd normal = weights + told.normal;
@@ -135,8 +135,8 @@ StrengthLaw law_by(const StrengthLaw& before, const Told& told, const Told* with
   return law;
 }
 
-/// ln of the strengths' density where they scatter by `fading_db` about levels that distance does
-/// not change, each tag's by the levels that all others tell.
+/// ln of the RSSI density if the values scatter by `fading_db` around levels independent of
+/// distance, each tag's by the levels learned from all others.
 double log_of_chance(const std::vector<TagOnGrid>& tags, const StrengthLaw& flat,
                      double tag_sigma_db) {
   const Eigen::Index size = flat.mean.size();
@@ -160,7 +160,7 @@ double log_of_chance(const std::vector<TagOnGrid>& tags, const StrengthLaw& flat
   return log;
 }
 
-/// Likewise where they scatter by anything from 1 to 16 dB.
+/// As above, averaged over scatter from 1 to 16 dB.
 double log_of_chance(const std::vector<TagOnGrid>& tags, std::size_t antennas,
                      StrengthPrior prior) {
   prior.slope_db = 0.0;
@@ -207,7 +207,8 @@ Eigen::ArrayXd log_strength(const TagOnGrid& tag, const StrengthLaw& law,
                             const StrengthPrior& prior) {
   const Eigen::Index count = tag.rssi_dbm.size();
   const Eigen::Index slope = law.mean.size() - 1;
-  // design() of every cell differs only in its last column, less the distances' logarithms.
+  // design() differs between cells only in its last column, the negative logarithms of the
+  // distances.
   const Eigen::MatrixXd levels = design(tag, 0, law.mean.size()).leftCols(slope);
   const Eigen::MatrixXd of_levels = scatter(count, law.fading_db, prior.tag_sigma_db) +
                                     transformed(levels, law.covariance.topLeftCorner(slope, slope));
@@ -252,8 +253,8 @@ LearnedLaw learn_law(const std::vector<TagOnGrid>& tags, std::size_t antennas,
     }
     if (round > 0 && std::abs(log_of_law - before_round) < kSettled) break;
   }
-  // Slope and places were fitted to so many strengths: by Schwarz's criterion ½ ln n for each of
-  // two.
+  // Slope and positions were fitted to n RSSI values: Schwarz's criterion takes ½ ln n for each of
+  // the two.
   double strengths = 1.0;
   for (const TagOnGrid& tag : tags) strengths += static_cast<double>(tag.antennas.size());
   learned.evidence = log_of_law - log_of_chance(tags, antennas, prior) - std::log(strengths);

@@ -21,30 +21,30 @@
 namespace tagfield {
 namespace {
 
-constexpr double kSameMaximum = 0.03;  ///< Maxima nearer than this are one [m].
-/// Of the best place's coherence before the climb; less is a side lobe.
+constexpr double kSameMaximum = 0.03;  ///< Maxima closer than this are the same [m].
+/// Minimum share of the best coherence before the climb; lower ones are side lobes.
 constexpr double kWorthWhile = 0.4;
-constexpr std::size_t kMirrored = 3;    ///< Of so many best places the mirror images are tried.
-constexpr std::size_t kMostNamed = 16;  ///< Maxima that are looked at.
-constexpr double kSameLobes = 0.3;      ///< Maxima nearer than this are lobes of one place [m].
-constexpr double kOtherPlace = 4.0;     ///< A log-likelihood so much less is that of another place.
+constexpr std::size_t kMirrored = 3;    ///< Number of best positions whose mirror images are tried.
+constexpr std::size_t kMostNamed = 16;  ///< Maximum number of maxima considered.
+constexpr double kSameLobes = 0.3;      ///< Maxima closer than this are lobes of one position [m].
+constexpr double kOtherPlace = 4.0;  ///< Maxima with a log-likelihood lower by this are ruled out.
 
-/// The direction of S, by which the waves are turned back; 1 where the offset is known.
+/// Direction of S, by which the phasors are rotated back; 1 where the offset is known.
 std::complex<double> direction_of(const Aperture& part, std::complex<double> sum) {
   const double length = std::abs(sum);
   return part.offset_known || !(length > 0.0) ? 1.0 : sum / length;
 }
 
-/// A place on the way up: coherence, its gradient and expected information.
+/// State of the climb: coherence, its gradient and expected information.
 struct Summit {
-  PlaceVector place;
-  double cost = 0.0;  ///< The coherence with the other sign.
+  PositionVector place;
+  double cost = 0.0;  ///< Negative coherence.
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   double count = 0.0;
 };
 
-/// In one pass: the offset is only known when all waves are added up, so both parts are kept.
+/// One pass: the offset is only known after summing all phasors, so both quadratures are kept.
 void add_part(const TagPhases& phases, const Aperture& part, const HeightModel& height,
               Summit& summit) {
   const WaveSlopes waves = wave_slopes(phases, part, height, summit.place);
@@ -60,7 +60,7 @@ void add_part(const TagPhases& phases, const Aperture& part, const HeightModel& 
 }
 
 Summit summit_at(const TagPhases& phases, const std::vector<Aperture>& parts,
-                 const HeightModel& height, const PlaceVector& place) {
+                 const HeightModel& height, const PositionVector& place) {
   Summit summit;
   summit.place = place;
   for (const Aperture& part : parts) add_part(phases, part, height, summit);
@@ -70,57 +70,57 @@ Summit summit_at(const TagPhases& phases, const std::vector<Aperture>& parts,
   return summit;
 }
 
-TagFit fit_at(const TagPhases& phases, const HeightModel& height, const PlaceVector& place) {
+TagFit fit_at(const TagPhases& phases, const HeightModel& height, const PositionVector& place) {
   return {place, offsets_at(phases, height, place), 0.0};
 }
 
-/// Residuals as they run on from read to read over each stretch, less its mean: at a wrong place
-/// they run away, which wrapped ones hide.
-Eigen::ArrayXd followed(const Spans& stretches, Eigen::ArrayXd residuals) {
-  for (const TagPhases::Span& span : stretches) {
-    auto stretch = residuals.segment(span.begin, span.count);
+/// Residuals unwrapped from read to read over each interval, minus its mean: at a wrong position
+/// they drift away, which wrapped residuals hide.
+Eigen::ArrayXd followed(const Spans& segments, Eigen::ArrayXd residuals) {
+  for (const TagPhases::Span& span : segments) {
+    auto segment = residuals.segment(span.begin, span.count);
     for (Eigen::Index i = 1; i < span.count; ++i) {
-      stretch[i] -= span.cycle_m * std::round((stretch[i] - stretch[i - 1]) / span.cycle_m);
+      segment[i] -= span.cycle_m * std::round((segment[i] - segment[i - 1]) / span.cycle_m);
     }
-    stretch -= stretch.mean();
+    segment -= segment.mean();
   }
   return residuals;
 }
 
-/// Where no step is too long for the phase to be followed.
-Spans stretches_of(const TagPhases& phases) {
-  constexpr double kLongestStep = 0.4;  // of λ/2, which turns the phase by a whole turn
-  Spans stretches;
+/// Intervals in which no step is too long for unwrapping the phase.
+Spans intervals_of(const TagPhases& phases) {
+  constexpr double kLongestStep = 0.4;  // of λ/2, which is one turn of phase
+  Spans segments;
   for (const TagPhases::Span& span : phases.spans) {
     for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
       const bool follows =
           i > span.begin && std::hypot(phases.x[i] - phases.x[i - 1], phases.y[i] - phases.y[i - 1],
                                        phases.z[i] - phases.z[i - 1]) < kLongestStep * span.cycle_m;
-      if (!follows) stretches.push_back({i, 0, span.antenna, span.offset_known, span.cycle_m});
-      ++stretches.back().count;
+      if (!follows) segments.push_back({i, 0, span.antenna, span.offset_known, span.cycle_m});
+      ++segments.back().count;
     }
   }
-  return stretches;
+  return segments;
 }
 
-/// Whether wrapped residuals or followed ones tell that `other` is a worse place than `best`.
+/// Whether wrapped or unwrapped residuals show that `other` is a worse position than `best`.
 bool is_worse(const TagPhases& phases, const Eigen::ArrayXd& best, const Eigen::ArrayXd& other) {
   if (tells_apart(phases.spans, best, other)) return true;
-  const Spans stretches = stretches_of(phases);
-  return tells_apart(stretches, followed(stretches, best), followed(stretches, other));
+  const Spans segments = intervals_of(phases);
+  return tells_apart(segments, followed(segments, best), followed(segments, other));
 }
 
 struct Maximum {
-  PlaceVector place;
+  PositionVector place;
   double coherence = 0.0;
 };
 
-/// Places that differ, by falling coherence.
+/// Distinct positions, in descending order of coherence.
 std::vector<Maximum> distinct(const TagPhases& phases, const HeightModel& height,
-                              const std::vector<PlaceVector>& places) {
+                              const std::vector<PositionVector>& places) {
   std::vector<Maximum> ranked;
   ranked.reserve(places.size());
-  for (const PlaceVector& place : places) {
+  for (const PositionVector& place : places) {
     ranked.push_back({place, coherence(phases, apertures(phases, kWholeAperture), height, place)});
   }
   std::stable_sort(ranked.begin(), ranked.end(),
@@ -128,7 +128,7 @@ std::vector<Maximum> distinct(const TagPhases& phases, const HeightModel& height
   std::vector<Maximum> kept;
   for (const Maximum& maximum : ranked) {
     const bool apart = std::all_of(kept.begin(), kept.end(), [&](const Maximum& other) {
-      return (to_place(height, other.place) - to_place(height, maximum.place)).norm() >
+      return (to_position(height, other.place) - to_position(height, maximum.place)).norm() >
              kSameMaximum;
     });
     if (apart && kept.size() < kMostNamed) kept.push_back(maximum);
@@ -136,37 +136,37 @@ std::vector<Maximum> distinct(const TagPhases& phases, const HeightModel& height
   return kept;
 }
 
-std::vector<PlaceVector> mirror_images(const TagPhases& phases,
-                                       const std::vector<Maximum>& maxima) {
-  std::vector<PlaceVector> images;
+std::vector<PositionVector> mirror_images(const TagPhases& phases,
+                                          const std::vector<Maximum>& maxima) {
+  std::vector<PositionVector> images;
   for (std::size_t i = 0; i < std::min(maxima.size(), kMirrored); ++i) {
-    PlaceVector image = maxima[i].place;
+    PositionVector image = maxima[i].place;
     image.head<2>() = mirror_image(phases, image.head<2>());
     images.push_back(image);
   }
   return images;
 }
 
-/// Those of the places from which the climb is worth while, finished.
-std::vector<PlaceVector> finished(const TagPhases& phases, const HeightModel& height,
-                                  const std::vector<PlaceVector>& places, double least,
-                                  bool go_up) {
-  std::vector<PlaceVector> tops;
-  for (const PlaceVector& place : places) {
+/// Summits reached from those positions where a climb is worthwhile.
+std::vector<PositionVector> finished(const TagPhases& phases, const HeightModel& height,
+                                     const std::vector<PositionVector>& places, double least,
+                                     bool go_up) {
+  std::vector<PositionVector> tops;
+  for (const PositionVector& place : places) {
     if (coherence(phases, apertures(phases, kWholeAperture), height, place) < least) continue;
     tops.push_back(go_up ? climb(phases, apertures(phases, kWholeAperture), height, place) : place);
   }
   return tops;
 }
 
-/// The maxima near the places and near the mirror images of the best.
+/// Maxima near the positions and near the mirror images of the best.
 std::vector<Maximum> maxima_near(const TagPhases& phases, const HeightModel& height,
-                                 const std::vector<PlaceVector>& places, bool go_up) {
+                                 const std::vector<PositionVector>& places, bool go_up) {
   std::vector<Maximum> starts = distinct(phases, height, places);
   if (starts.empty()) return starts;
   const double least = kWorthWhile * starts.front().coherence;
-  std::vector<PlaceVector> tops = finished(phases, height, places, least, go_up);
-  const std::vector<PlaceVector> images =
+  std::vector<PositionVector> tops = finished(phases, height, places, least, go_up);
+  const std::vector<PositionVector> images =
       finished(phases, height, mirror_images(phases, distinct(phases, height, tops)), least, go_up);
   tops.insert(tops.end(), images.begin(), images.end());
   return distinct(phases, height, tops);
@@ -185,11 +185,11 @@ Eigen::ArrayXd residuals_at(const TagPhases& phases, const HeightModel& height,
   return residuals_of(phases, height, fit_at(phases, height, maximum.place));
 }
 
-/// How much less log-likely a maximum is than the best.
+/// Difference in log-likelihood between the best maximum and another.
 using Unlikelihood = std::function<double(const Maximum&)>;
 
-/// κ ΔS, over the correlation factor of the best's residuals, as reads whose errors are one and the
-/// same are but one witness.
+/// κ ΔS, divided by the correlation factor of the best's residuals, as reads with the same error
+/// count only once.
 Unlikelihood by_coherence(const TagPhases& phases, const Maximum& best,
                           const Eigen::ArrayXd& residuals) {
   const double share =
@@ -201,11 +201,11 @@ Unlikelihood by_coherence(const TagPhases& phases, const Maximum& best,
   };
 }
 
-/// By the told pose errors, which residuals of reads far apart don't show. What of the best's
-/// residuals exceeds them is white, and a quarter at least, as a fit takes some of slow errors
-/// away.
-Unlikelihood by_told_poses(const TagPhases& phases, const HeightModel& height,
-                           const Eigen::ArrayXd& residuals) {
+/// From the given pose errors, which residuals of reads far apart do not show. The variance of the
+/// best's residuals in excess of the pose errors is white noise, at least a quarter of it, as the
+/// fit absorbs part of slow errors.
+Unlikelihood by_stated_poses(const TagPhases& phases, const HeightModel& height,
+                             const Eigen::ArrayXd& residuals) {
   constexpr double kLeastWhite = 0.25;
   const double all = residual_variance(phases.spans, residuals);
   const double slow = phases.pose_error->sigma_m * phases.pose_error->sigma_m;
@@ -216,36 +216,36 @@ Unlikelihood by_told_poses(const TagPhases& phases, const HeightModel& height,
   };
 }
 
-/// Maxima that the data can't tell from the best.
+/// Maxima that the data cannot distinguish from the best.
 struct Rivals {
-  std::vector<Maximum> lobes;   ///< Near the best, of bent phases.
-  std::vector<Maximum> others;  ///< Other places.
+  std::vector<Maximum> lobes;   ///< Near the best, for distorted phases.
+  std::vector<Maximum> others;  ///< At other positions.
 };
 
-/// Without `unlikely` residuals alone judge.
+/// Without `unlikely`, residuals alone decide.
 Rivals rivals_of(const TagPhases& phases, const HeightModel& height,
                  const std::vector<Maximum>& maxima, const Unlikelihood& unlikely) {
   const Eigen::ArrayXd best = residuals_at(phases, height, maxima.front());
-  const Eigen::Vector3d p_WT = to_place(height, maxima.front().place);
+  const Eigen::Vector3d p_WT = to_position(height, maxima.front().place);
   Rivals rivals;
   for (std::size_t i = 1; i < maxima.size(); ++i) {
     const Maximum& maximum = maxima[i];
     if (unlikely && unlikely(maximum) > kOtherPlace) continue;
     if (is_worse(phases, best, residuals_at(phases, height, maximum))) continue;
-    const bool near = (to_place(height, maximum.place) - p_WT).norm() < kSameLobes;
+    const bool near = (to_position(height, maximum.place) - p_WT).norm() < kSameLobes;
     (unlikely && near ? rivals.lobes : rivals.others).push_back(maximum);
   }
   return rivals;
 }
 
-/// Lets the covariance span the lobes near the place as well, as far as they are likely.
+/// Extends the covariance over the lobes near the position, weighted by their likelihood.
 void span_lobes(const HeightModel& height, const Unlikelihood& unlikely,
                 const std::vector<Maximum>& lobes, Candidate& candidate) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   double weights = 1.0;
   for (const Maximum& lobe : lobes) {
     const double weight = std::exp(-std::max(0.0, unlikely(lobe)));
-    const Eigen::Vector3d apart = to_place(height, lobe.place) - candidate.p_WT;
+    const Eigen::Vector3d apart = to_position(height, lobe.place) - candidate.p_WT;
     spread += weight * apart * apart.transpose();
     weights += weight;
   }
@@ -261,19 +261,19 @@ Candidate scaled(Candidate candidate, double factor) {
   return candidate;
 }
 
-/// How much greater errors are than residuals tell: slow ones, which no told pose error explains,
-/// are taken for distance in part. Those of reflections, correlated over a metre or two of the way,
-/// were twice as great (docs/methods.md); white noise has no such part.
+/// Ratio of the actual errors to those that residuals suggest: slow errors not explained by a given
+/// pose error are partly absorbed as distance. Errors due to reflections, correlated over a metre
+/// or two of the path, were twice as large (docs/methods.md); white noise is not absorbed.
 double fitted_away(const TagPhases& phases, const Eigen::ArrayXd& errors) {
-  constexpr double kSlowErrors = 3.0;  // Reads that are worth one; from there on errors are slow.
+  constexpr double kSlowErrors = 3.0;  // Reads per independent one, above which errors are slow.
   if (phases.pose_error) return 1.0;
   return 1.0 +
          std::min(1.0, (correlation_factor(phases.spans, errors) - 1.0) / (kSlowErrors - 1.0));
 }
 
-/// Where phases are bent, residuals may tell of more than the told pose error does.
+/// Where phases are distorted, residuals may indicate larger errors than the given pose error.
 Candidate careful_candidate(const TagPhases& phases, const HeightModel& height,
-                            const PlaceVector& place, bool bent) {
+                            const PositionVector& place, bool bent) {
   Candidate honest = candidate_at(phases, height, place);
   if (!bent) return honest;
   const TagFit fit = fit_at(phases, height, place);
@@ -286,13 +286,13 @@ Candidate careful_candidate(const TagPhases& phases, const HeightModel& height,
 }  // namespace
 
 double coherent_share(const TagPhases& phases, const HeightModel& height,
-                      const PlaceVector& place) {
+                      const PositionVector& place) {
   const double waves = coherence(phases, apertures(phases, kWholeAperture), height, place);
   return waves / static_cast<double>(std::max<Eigen::Index>(phases.size(), 1));
 }
 
 double coherence(const TagPhases& phases, const std::vector<Aperture>& parts,
-                 const HeightModel& height, const PlaceVector& place) {
+                 const HeightModel& height, const PositionVector& place) {
   double sum = 0.0;
   for (const Aperture& part : parts) {
     const std::complex<double> waves = wave_sum(phases, part, height, place);
@@ -301,11 +301,11 @@ double coherence(const TagPhases& phases, const std::vector<Aperture>& parts,
   return sum;
 }
 
-PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
-                  const HeightModel& height, const PlaceVector& start) {
+PositionVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
+                     const HeightModel& height, const PositionVector& start) {
   constexpr double kTolerance = 1e-5;   // [m]
   constexpr double kNoGain = 1e-5;      // of a coherence of many reads
-  constexpr double kLongestStep = 0.3;  // [m]; beyond is another lobe
+  constexpr double kLongestStep = 0.3;  // [m]; longer ones reach another lobe
   constexpr double kRidge = 1e-9;
   constexpr LevenbergMarquardt kHow{.most_steps = 40,
                                     .damping = 1e-4,
@@ -313,7 +313,7 @@ PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
                                     .raise = 8.0,
                                     .least_raised = 1e-3};
   const auto step = [&](const Summit& here, double damping) -> std::optional<Summit> {
-    PlaceVector move = solve_symmetric(damped(here.information, damping, kRidge), here.gradient);
+    PositionVector move = solve_symmetric(damped(here.information, damping, kRidge), here.gradient);
     if (!is_worthwhile(move, kTolerance) || here.gradient.dot(move) < kNoGain) return std::nullopt;
     if (move.head<2>().norm() > kLongestStep) move *= kLongestStep / move.head<2>().norm();
     return summit_at(phases, parts, height, here.place + move);
@@ -322,14 +322,15 @@ PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
 }
 
 Candidate candidate_at(const TagPhases& phases, const HeightModel& height,
-                       const PlaceVector& place) {
+                       const PositionVector& place) {
   const TagFit fit = fit_at(phases, height, place);
   return make_candidate(phases, height, fit);
 }
 
 TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
-                         const std::vector<PlaceVector>& places, const CoherentJudgement& judgement,
-                         const EstimateLimits& limits, TagEstimate estimate) {
+                         const std::vector<PositionVector>& places,
+                         const CoherentJudgement& judgement, const EstimateLimits& limits,
+                         TagEstimate estimate) {
   const std::vector<Maximum> maxima = maxima_near(phases, height, places, judgement.climb);
   if (maxima.empty()) {
     return not_located(std::move(estimate), "no position is within range of most reads");
@@ -345,7 +346,7 @@ TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
   const bool bent = judgement.at_maxima && share < kBentShare;
   Unlikelihood unlikely;
   if (hides_pose_errors(phases, best)) {
-    unlikely = by_told_poses(phases, height, best);
+    unlikely = by_stated_poses(phases, height, best);
   } else if (bent) {
     unlikely = by_coherence(phases, maxima.front(), best);
   }
@@ -356,9 +357,10 @@ TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
     if (!judgement.error_factor) {
       return careful_candidate(phases, height, maximum.place, bent);
     }
-    const PlaceVector top = climb(phases, apertures(phases, kWholeAperture), height, maximum.place);
+    const PositionVector top =
+        climb(phases, apertures(phases, kWholeAperture), height, maximum.place);
     Candidate candidate = scaled(candidate_at(phases, height, top), factor);
-    candidate.p_WT = to_place(height, maximum.place);
+    candidate.p_WT = to_position(height, maximum.place);
     return candidate;
   };
   estimate.candidates.push_back(candidate_of(maxima.front()));
@@ -372,7 +374,7 @@ TagEstimate locate_by_waves(const LocalizationProblem& problem, const std::strin
                             const SamplesOfTag& samples, const CoherentJudgement& judgement,
                             const FindPlaces& find) {
   TagEstimate estimate = begun(tag, samples);
-  const std::string hopeless = why_hopeless(samples);
+  const std::string hopeless = why_not_locatable(samples);
   if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
   TagPhases phases = coherent_reads(problem, samples);
   for (TagPhases::Span& span : phases.spans) {

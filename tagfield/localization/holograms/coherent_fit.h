@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Likelihood of places by wrapped phase: the waves of an aperture, turned back by the phase that a
-/// tag there would give, add up to S = Σ e^{j(φ − k r)}. With von Mises noise and the offset
-/// unknown the log-likelihood is κ Σ |S| but for constants; with a known offset Re S takes the
-/// place of |S|.
+/// Likelihood of positions from wrapped phase: the phasors of an aperture, rotated back by the
+/// phase expected from a tag at the position, add up to S = Σ e^{j(φ − k r)}. With von Mises noise
+/// and an unknown offset, the log-likelihood is κ Σ |S| up to constants; with a known offset, Re S
+/// replaces |S|.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,57 +20,61 @@ namespace tagfield {
 
 /// Σ |S| over the apertures, Re S where the offset is known; at most the number of reads.
 double coherence(const TagPhases& phases, const std::vector<Aperture>& parts,
-                 const HeightModel& height, const PlaceVector& place);
+                 const HeightModel& height, const PositionVector& place);
 
 /// The local maximum of coherence() near `start`: scoring steps (expected information in place of
 /// the Hessian) with Levenberg's damping. Finite for finite input.
-PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
-                  const HeightModel& height, const PlaceVector& start);
+PositionVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
+                     const HeightModel& height, const PositionVector& start);
 
-/// The place with its covariance (fit_candidates.h).
+/// The position with its covariance (fit_candidates.h).
 Candidate candidate_at(const TagPhases& phases, const HeightModel& height,
-                       const PlaceVector& place);
+                       const PositionVector& place);
 
 /// coherence() of whole apertures over the number of reads, in [0, 1].
-double coherent_share(const TagPhases& phases, const HeightModel& height, const PlaceVector& place);
+double coherent_share(const TagPhases& phases, const HeightModel& height,
+                      const PositionVector& place);
 
-/// At a lesser coherent_share() the phases are not those of one wave with noise: reflections or
-/// pose errors bend them.
+/// Below this coherent_share(), the phases are not those of a single wave with noise: reflections
+/// or pose errors distort them.
 inline constexpr double kBentShare = 0.97;
 
-/// How many times those of the best use of the phases a method's errors are at a place; at least 1.
+/// Ratio of a method's error at a position to that of an optimal estimator from the same phases; at
+/// least 1.
 using ErrorFactor = std::function<double(const TagPhases& phases, const HeightModel& height,
-                                         const PlaceVector& place)>;
+                                         const PositionVector& place)>;
 
-/// What is done with places that a search found.
+/// How the positions found by a search are refined and judged.
 struct CoherentJudgement {
-  /// A lesser coherent_share() is no tag at rest; that of phases that say nothing is about 0.1.
+  /// Minimum coherent_share() of a tag at rest; that of random phases is about 0.1.
   double min_share = 0.35;
-  /// Of places that are not maxima of coherence, whose own residuals tell of that too: covariances
-  /// are those of the maxima next to them, times the square of this at the best. None where they
-  /// are.
+  /// For methods whose positions are not maxima of coherence, which inflates their residuals:
+  /// covariances are those of the nearest maxima, times the square of this factor at the best
+  /// position. Empty if the positions are maxima.
   ErrorFactor error_factor;
-  bool climb = true;          ///< Go from each place to the maximum of coherence() near it.
-  bool at_maxima = true;      ///< The places, climbed to or not, are about those maxima.
-  bool known_offsets = true;  ///< Offsets that are known are made use of.
+  bool climb = true;          ///< Climb from each position to the nearest maximum of coherence().
+  bool at_maxima = true;      ///< The positions are near those maxima, with or without the climb.
+  bool known_offsets = true;  ///< Use known offsets.
 };
 
-/// What a smallest share may be.
+/// Valid range of a minimum share.
 inline constexpr ValueRange kShareRange{0.0, true, 1.0};
 
-/// Finishes: climbs from the places and from mirror images of the best, and gives verdict,
-/// candidates (those that the data can't tell from the best) and covariances. Where the phases are
-/// bent and the places are maxima, those that are e⁻⁴ less likely than the best are dropped, and
-/// lobes within 0.3 m of it widen its covariance.
+/// Final step: climbs from the positions and from mirror images of the best, and sets verdict,
+/// candidates (those that the data cannot distinguish from the best) and covariances. Where the
+/// phases are distorted and the positions are maxima, those less likely than the best by a factor
+/// of e⁻⁴ are dropped, and lobes within 0.3 m of it widen its covariance.
 TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
-                         const std::vector<PlaceVector>& places, const CoherentJudgement& judgement,
-                         const EstimateLimits& limits, TagEstimate estimate);
+                         const std::vector<PositionVector>& places,
+                         const CoherentJudgement& judgement, const EstimateLimits& limits,
+                         TagEstimate estimate);
 
-/// Where a tag may be, by its phases.
+/// Finds possible positions of a tag from its phases.
 using FindPlaces =
-    std::function<std::vector<PlaceVector>(const TagPhases& phases, const HeightModel& height)>;
+    std::function<std::vector<PositionVector>(const TagPhases& phases, const HeightModel& height)>;
 
-/// Locates one tag: says why that is hopeless, or lets `find` look for places and judges them.
+/// Locates one tag: reports why that is hopeless, or searches for positions with `find` and judges
+/// them.
 TagEstimate locate_by_waves(const LocalizationProblem& problem, const std::string& tag,
                             const SamplesOfTag& samples, const CoherentJudgement& judgement,
                             const FindPlaces& find);

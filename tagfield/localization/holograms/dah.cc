@@ -12,17 +12,17 @@
 namespace tagfield {
 namespace {
 
-/// Phase error that the grid's spacing adds [rad]: a tag is seldom where a cell has its middle.
+/// Phase error added by the grid's spacing [rad]: a tag is seldom at the middle of a cell.
 constexpr double kGridNoise = 0.35;
-constexpr Eigen::Index kLongAperture = 64;  ///< Reads from which on there are several references.
+constexpr Eigen::Index kLongAperture = 64;  ///< Reads from which several references are used.
 constexpr Eigen::Index kReferences = 4;
-constexpr double kLeastNoise = 1e-3;     ///< Of a phase [rad], where it shows none.
-constexpr int kDraws = 16;               ///< Of noise, by which the expected error is found.
-constexpr std::size_t kFinished = 6;     ///< So many of the brightest places are finished.
-constexpr double kFirstSpacing = 0.012;  ///< Of the tile that looks for the summit [m].
+constexpr double kLeastNoise = 1e-3;     ///< Of a phase [rad], if none is observed.
+constexpr int kDraws = 16;               ///< Noise realizations that give the expected error.
+constexpr std::size_t kFinished = 6;     ///< Number of brightest positions that are refined.
+constexpr double kFirstSpacing = 0.012;  ///< Of the tile that searches for the summit [m].
 constexpr double kLastSpacing = 1e-4;    ///< [m]
 
-/// From an antenna to a place on the floor.
+/// Vector from an antenna to a point on the floor.
 Eigen::Vector2d from_antenna(const SearchRead& read, const Eigen::Vector2d& p) {
   return p - Eigen::Vector2d(static_cast<double>(read.x), static_cast<double>(read.y));
 }
@@ -33,7 +33,7 @@ Tile complementary_error(const Tile& x) {
   return root.square().square().inverse();
 }
 
-/// The waves of an aperture's reads against one of them.
+/// Phasors of an aperture's reads relative to one of them.
 struct Against {
   Tile reference;  ///< Its residual [turns].
   Tile in_phase = Tile::Zero();
@@ -50,12 +50,12 @@ void add_wave(const Tile& turns, float turns_scale, Against& against) {
   against.quadrature += weight * sine;
 }
 
-/// Square array of places about `p`, `spacing` apart.
+/// Square array of points around `p`, `spacing` apart.
 void lay_tile(const Eigen::Vector2d& p, double spacing, Tile& x, Tile& y) {
   constexpr int kSide = 8;
   static_assert(kSide * kSide == kTile);
   for (int i = 0; i < kTile; ++i) {
-    // One of the places is `p` itself.
+    // One of the points is `p` itself.
     const int column = i % kSide - kSide / 2;
     const int row = i / kSide - kSide / 2;
     x[i] = static_cast<float>(p.x() + spacing * column);
@@ -63,7 +63,7 @@ void lay_tile(const Eigen::Vector2d& p, double spacing, Tile& x, Tile& y) {
   }
 }
 
-/// The summit near `p`, relative to the reads' middle.
+/// Summit near `p`, relative to the reads' middle.
 Eigen::Vector2d summit(const SearchReads& reads, double noise_rad, Eigen::Vector2d p) {
   constexpr int kMostMoves = 30;
   Tile x;
@@ -80,20 +80,20 @@ Eigen::Vector2d summit(const SearchReads& reads, double noise_rad, Eigen::Vector
   return p;
 }
 
-/// The places on their summits, at the heights that they have.
-std::vector<PlaceVector> finished(const TagPhases& phases, const HeightModel& height,
-                                  std::vector<PlaceVector> places, double noise_rad) {
+/// The positions moved to their summits, at unchanged heights.
+std::vector<PositionVector> finished(const TagPhases& phases, const HeightModel& height,
+                                     std::vector<PositionVector> places, double noise_rad) {
   if (places.size() > kFinished) places.resize(kFinished);
-  for (PlaceVector& place : places) {
+  for (PositionVector& place : places) {
     const Eigen::Vector2d middle = middle_of(phases);
     const SearchReads reads =
-        search_reads(phases, kWholeAperture, to_place(height, place).z(), middle);
+        search_reads(phases, kWholeAperture, to_position(height, place).z(), middle);
     place.head<2>() = middle + summit(reads, noise_rad, place.head<2>() - middle);
   }
   return places;
 }
 
-/// The same reads of a tag at `p`, with noise.
+/// The same reads, simulated for a tag at `p` with noise.
 SearchReads drawn(SearchReads reads, const Eigen::Vector2d& p, double noise_rad,
                   RandomStream& stream) {
   for (SearchRead& read : reads.reads) {
@@ -104,7 +104,7 @@ SearchReads drawn(SearchReads reads, const Eigen::Vector2d& p, double noise_rad,
   return reads;
 }
 
-/// Of x and y for phases with a noise of 1 rad, each aperture's offset unknown [1/m²].
+/// Information on x and y for a phase noise of 1 rad, each aperture's offset unknown [1/m²].
 Eigen::Matrix2d information_at(const SearchReads& reads, const Eigen::Vector2d& p) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (const Aperture& aperture : reads.apertures) {
@@ -123,11 +123,11 @@ Eigen::Matrix2d information_at(const SearchReads& reads, const Eigen::Vector2d& 
   return information;
 }
 
-/// Over `kDraws` sets of reads as the place's tag would give them with the noise that there is:
-/// √ of the mean of eᵀ J e/2, where the summit errs by e on the floor and J⁻¹ is the bound there.
-/// The reference's own noise and weights that depend on what they weigh have no simple closed form.
-double error_factor(const TagPhases& phases, const PlaceVector& place, double z, double kernel_rad,
-                    double noise_rad, RandomStream& stream) {
+/// √ of the mean of eᵀ J e/2 over `kDraws` sets of reads simulated for a tag at the position with
+/// the observed noise, where e is the summit's error on the floor and J⁻¹ its lower bound. Noise of
+/// the reference and data-dependent weights have no simple closed form.
+double error_factor(const TagPhases& phases, const PositionVector& place, double z,
+                    double kernel_rad, double noise_rad, RandomStream& stream) {
   const Eigen::Vector2d middle = middle_of(phases);
   const SearchReads reads = search_reads(phases, kWholeAperture, z, middle);
   const Eigen::Vector2d p = place.head<2>() - middle;
@@ -146,13 +146,13 @@ TagEstimate locate_by_differences(const LocalizationProblem& problem, const std:
   judgement.min_share = options.min_share;
   judgement.climb = false;
   judgement.at_maxima = false;
-  judgement.known_offsets = false;  // Differences have lost the offset.
+  judgement.known_offsets = false;  // The offset cancels in differences.
   const double noise = largest_phase_noise(samples, options.least_noise_rad);
   const double grid_noise = std::hypot(noise, kGridNoise);
   judgement.error_factor = [&](const TagPhases& phases, const HeightModel& height,
-                               const PlaceVector& place) {
+                               const PositionVector& place) {
     RandomStream stream(0, Purpose::kTagSearch, stream_key(tag));
-    return error_factor(phases, place, to_place(height, place).z(), noise,
+    return error_factor(phases, place, to_position(height, place).z(), noise,
                         largest_phase_noise(samples, kLeastNoise), stream);
   };
   const Brightness brightness{[&](const SearchReads& reads, const Tile& x, const Tile& y) {
@@ -160,11 +160,12 @@ TagEstimate locate_by_differences(const LocalizationProblem& problem, const std:
   }};
   return locate_by_waves(
       problem, tag, samples, judgement, [&](const TagPhases& phases, const HeightModel& height) {
-        return finished(phases, height, search_places(phases, height, options, brightness), noise);
+        return finished(phases, height, search_positions(phases, height, options, brightness),
+                        noise);
       });
 }
 
-/// The keys of its options.
+/// Keys of the options.
 const OptionTable<DahOptions>& dah_options() {
   using O = DahOptions;
   static const OptionTable<O> of = [] {

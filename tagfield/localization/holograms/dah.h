@@ -12,17 +12,17 @@
 namespace tagfield {
 
 struct DahOptions : SearchOptions {
-  double least_noise_rad = 0.1;  ///< Standard deviation of a phase, if not more is seen; over 0.
+  double least_noise_rad = 0.1;  ///< Lower bound on a phase's standard deviation; over 0.
   double min_share = 0.5;        ///< See CoherentJudgement; in (0, 1].
 };
 
 /// Σ over apertures of |Σ_i w_i e^{jε_i}| with ε_i = (φ_i − φ_0) − k (r_i − r_0) wrapped, read 0
-/// the reference, and the weight w = P(|N(0, (√2 σ)²)| > |ε|) = erfc(|ε|/2σ). Long apertures have
-/// four references, of which the mean counts.
+/// being the reference, and the weight w = P(|N(0, (√2 σ)²)| > |ε|) = erfc(|ε|/2σ). For long
+/// apertures, the mean over four references.
 Tile differential_brightness(const SearchReads& reads, double noise_rad, const Tile& x,
                              const Tile& y);
 
-/// "dah": all tags, one by one. Throws Error on options out of their range.
+/// Method "dah": each tag independently. Throws Error on options out of range.
 Method dah_method(const DahOptions& options = {});
 
 }  // namespace tagfield

@@ -13,27 +13,27 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostKept = 250;  ///< Cells of a level that are split.
+constexpr std::size_t kMostKept = 250;  ///< Maximum number of cells of a level that are split.
 constexpr std::size_t kFewestKept = 100;
 constexpr float kBrightEnough = 0.6f;  ///< Of the brightest.
-constexpr double kBoxesApart = 0.05;   ///< Maxima nearer than this are one [m].
+constexpr double kBoxesApart = 0.05;   ///< Maxima closer than this are the same [m].
 
 struct SearchCell {
   std::int32_t i = 0, j = 0;
   float brightness = 0.0f;
 };
 
-/// A level's grid: cell (i, j) has its middle at (i, j) · size.
+/// Cells of a level: the middle of cell (i, j) is at (i, j) · size.
 using Cells = std::vector<SearchCell>;
 
-/// The first cell of a block of the coarsest grid.
+/// First cell of a block of the coarsest grid.
 struct BlockBegin {
   std::int32_t i = 0, j = 0;
 };
 
 Eigen::Vector2d place_of(double size, double i, double j) { return size * Eigen::Vector2d(i, j); }
 
-/// The coarsest grid, which is looked at by blocks.
+/// The coarsest grid, traversed in blocks.
 class BlockGrid {
  public:
   BlockGrid(const Grid& grid, const PlaneInReach& in_reach)
@@ -43,7 +43,7 @@ class BlockGrid {
 
   using Around = PlaneInReach::Surrounding;
 
-  /// Calls `take(begin, around)` for each block of which a part is in reach.
+  /// Calls `take(begin, around)` for each block that is at least partly in reach.
   template <class Take>
   void for_each_block(const Take& take) const {
     constexpr double kToMiddle = 0.5 * (kBlock - 1);
@@ -57,7 +57,7 @@ class BlockGrid {
     }
   }
 
-  /// Calls `take(i, j)` for each cell of a block, counted from its first, that is in reach.
+  /// Calls `take(i, j)` for each cell of a block that is in reach, counted from the block's first.
   template <class Take>
   void for_each_cell(const BlockBegin& at, const Around& around, const Take& take) const {
     for (std::int32_t j = 0; j < std::min(kBlock, end_ - at.j); ++j) {
@@ -73,7 +73,7 @@ class BlockGrid {
  private:
   const Grid& grid_;
   const PlaneInReach& in_reach_;
-  std::int32_t end_;  ///< Beyond the last cell, along both axes.
+  std::int32_t end_;  ///< One past the last cell, along both axes.
 };
 
 Cells all_cells(const BlockGrid& grid) {
@@ -86,17 +86,17 @@ Cells all_cells(const BlockGrid& grid) {
   return all;
 }
 
-constexpr std::size_t kOneOf = 10;                                   ///< Is left by a glance.
+constexpr std::size_t kOneOf = 10;  ///< A glance keeps one cell in ten.
 constexpr float kOutOfReach = std::numeric_limits<float>::lowest();  ///< A cell's brightness.
 
-struct GlancedBlock {
+struct PreselectedBlock {
   BlockBegin at;
   BlockLight light;
 };
 
-std::vector<GlancedBlock> glanced_at(const BlockGrid& grid, double cell_m,
-                                     const GridGlances& glances) {
-  std::vector<GlancedBlock> blocks;
+std::vector<PreselectedBlock> glanced_at(const BlockGrid& grid, double cell_m,
+                                         const GridPreselection& glances) {
+  std::vector<PreselectedBlock> blocks;
   grid.for_each_block([&](const BlockBegin& at, const BlockGrid::Around& around) {
     const Eigen::Vector2d first = place_of(cell_m, at.i, at.j);
     const BlockLight light = glances.at_blocks(
@@ -109,16 +109,16 @@ std::vector<GlancedBlock> glanced_at(const BlockGrid& grid, double cell_m,
   return blocks;
 }
 
-/// What about a tenth of the cells exceed, from a histogram.
-float light_of_tenth(const std::vector<GlancedBlock>& blocks) {
+/// Brightness that about a tenth of the cells exceed, from a histogram.
+float light_of_tenth(const std::vector<PreselectedBlock>& blocks) {
   constexpr std::size_t kBins = 4096;
   float most = 0.0f;
-  for (const GlancedBlock& block : blocks) most = std::max(most, block.light.maxCoeff());
+  for (const PreselectedBlock& block : blocks) most = std::max(most, block.light.maxCoeff());
   if (!(most > 0.0f)) return std::nextafter(kOutOfReach, 0.0f);  // All that are in reach.
   const float bins_each = static_cast<float>(kBins - 1) / most;
   std::vector<std::uint32_t> counts(kBins, 0);
   std::size_t cells = 0;
-  for (const GlancedBlock& block : blocks) {
+  for (const PreselectedBlock& block : blocks) {
     for (const float light : block.light.reshaped()) {
       if (light == kOutOfReach) continue;
       ++counts[static_cast<std::size_t>(bins_each * std::max(light, 0.0f))];
@@ -130,12 +130,12 @@ float light_of_tenth(const std::vector<GlancedBlock>& blocks) {
   return static_cast<float>(bin) / bins_each;
 }
 
-/// About the brightest tenth of the cells at a glance.
-Cells bright_cells(const BlockGrid& grid, double cell_m, const GridGlances& glances) {
-  const std::vector<GlancedBlock> blocks = glanced_at(grid, cell_m, glances);
+/// Approximately the brightest tenth of the cells, from the first glance.
+Cells bright_cells(const BlockGrid& grid, double cell_m, const GridPreselection& glances) {
+  const std::vector<PreselectedBlock> blocks = glanced_at(grid, cell_m, glances);
   const float least = light_of_tenth(blocks);
   Cells bright;
-  for (const GlancedBlock& block : blocks) {
+  for (const PreselectedBlock& block : blocks) {
     for (std::int32_t j = 0; j < kBlock; ++j) {
       for (std::int32_t i = 0; i < kBlock; ++i) {
         const float light = block.light(i, j);
@@ -164,13 +164,13 @@ void illuminate(const GridLevel& brightness, double size, Cells& cells) {
   }
 }
 
-/// By falling brightness, then by place, so that the order is the same everywhere.
+/// Descending by brightness, then by index, so that the order is the same on every machine.
 bool is_brighter(const SearchCell& a, const SearchCell& b) {
   if (a.brightness != b.brightness) return a.brightness > b.brightness;
   return a.i != b.i ? a.i < b.i : a.j < b.j;
 }
 
-/// The brightest tenth, of which no fewer are kept than are split.
+/// Keeps the brightest tenth, but not fewer cells than are split.
 void keep_brightest(Cells& cells) {
   const std::size_t left = std::max((cells.size() + kOneOf - 1) / kOneOf, kMostKept);
   if (left >= cells.size()) return;
@@ -179,8 +179,8 @@ void keep_brightest(Cells& cells) {
   cells.erase(end, cells.end());
 }
 
-/// Those of the coarsest grid that its level looks at.
-Cells first_cells(const Grid& grid, const PlaneInReach& in_reach, const GridGlances& glances) {
+/// Cells of the coarsest grid that its level evaluates.
+Cells first_cells(const Grid& grid, const PlaneInReach& in_reach, const GridPreselection& glances) {
   const BlockGrid blocks(grid, in_reach);
   if (!glances.at_blocks) return all_cells(blocks);
   Cells cells = bright_cells(blocks, grid.cell_m, glances);
@@ -190,7 +190,7 @@ Cells first_cells(const Grid& grid, const PlaneInReach& in_reach, const GridGlan
   return cells;
 }
 
-/// The bright ones of the cells, each split.
+/// The bright cells, each split.
 Cells split(Cells cells) {
   const std::size_t most = std::min(cells.size(), kMostKept);
   std::partial_sort(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(most), cells.end(),
@@ -268,7 +268,7 @@ BlockLight light_of_block(const GridLevel& brightness, const CellBlock& block) {
 
 std::vector<GridMaximum> search_grid(const Grid& grid, const PlaneInReach& in_reach,
                                      const std::vector<GridLevel>& levels, std::size_t count,
-                                     const GridGlances& glances) {
+                                     const GridPreselection& glances) {
   Cells cells = first_cells(grid, in_reach, glances);
   double size = grid.cell_m;
   for (std::size_t level = 0; level + 1 < levels.size(); ++level) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Search of an area for its brightest places, from coarse to fine: cells that were bright are
-/// split, and looked at more closely.
+/// Coarse-to-fine search of an area for its brightest points: bright cells are split and evaluated
+/// again.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,11 +14,11 @@ namespace tagfield {
 
 class PlaneInReach;
 
-/// So many places are worked on at once.
+/// Number of points processed together.
 inline constexpr int kTile = 64;
 using Tile = Eigen::Array<float, kTile, 1>;
 
-/// What `of(x, y, z)` makes of each place, a tile at a time.
+/// Values of `of(x, y, z)` at each point, a tile at a time.
 template <class Place, class OfTile>
 std::vector<double> by_tiles(const std::vector<Place>& places, const OfTile& of) {
   std::vector<double> all(places.size());
@@ -41,7 +41,7 @@ std::vector<double> by_tiles(const std::vector<Place>& places, const OfTile& of)
   return all;
 }
 
-/// A cell is split into so many by so many.
+/// A cell is split into this many by this many.
 inline constexpr int kGridSplit = 3;
 
 /// The coarsest grid: a square of cells.
@@ -51,10 +51,10 @@ struct Grid {
   double reach_m = 12.0;  ///< From the middle to an edge.
 };
 
-/// How bright the places (x, y) of a tile are, relative to the grid's middle [m].
+/// Brightness at the points (x, y) of a tile, relative to the grid's middle [m].
 using GridLevel = std::function<Tile(const Tile& x, const Tile& y)>;
 
-/// So many by so many cells of the coarsest grid are glanced at together.
+/// Side of a block of cells of the coarsest grid that a glance evaluates together.
 inline constexpr int kBlock = 16;
 
 /// A square of such cells.
@@ -63,14 +63,14 @@ struct CellBlock {
   float cell_m = 0.0f;
 };
 
-/// Of the cell (x + i · cell_m, y + j · cell_m) in (i, j).
+/// Brightness of a block: element (i, j) is that of the cell (x + i · cell_m, y + j · cell_m).
 using BlockLight = Eigen::Array<float, kBlock, kBlock>;
 
-/// Looks at the coarsest grid that cost less than its level.
-struct GridGlances {
-  /// About how bright the cells of a block are; empty where there are no glances.
+/// Preselection of cells of the coarsest grid, cheaper than its level.
+struct GridPreselection {
+  /// Approximate brightness of a block's cells; empty for no glances.
   std::function<BlockLight(const CellBlock& block)> at_blocks;
-  GridLevel at_cells{};  ///< By other reads, of the cells that are left; empty for no second look.
+  GridLevel at_cells{};  ///< Second glance at the remaining cells, with other reads; may be empty.
 };
 
 /// The cells of a block, a tile at a time.
@@ -81,12 +81,12 @@ struct GridMaximum {
   float brightness = 0.0f;
 };
 
-/// The brightest local maxima on the finest grid, at least 5 cm apart, brightest first, at most
-/// `count`. The first level is of the cells that are in reach, each further one of cells a third as
-/// wide, where the one before was bright. None where there is no cell. At least one level. Of
-/// glances, each leaves about the brightest tenth of the cells, the second 250 of them at least.
+/// At most `count` of the brightest local maxima on the finest grid, at least 5 cm apart, brightest
+/// first; none if no cell is in reach. The first level evaluates the cells in reach, each further
+/// one cells a third as wide where the previous level was bright. `levels` must not be empty. Each
+/// glance keeps about the brightest tenth of the cells, the second at least 250.
 std::vector<GridMaximum> search_grid(const Grid& grid, const PlaneInReach& in_reach,
                                      const std::vector<GridLevel>& levels, std::size_t count,
-                                     const GridGlances& glances = {});
+                                     const GridPreselection& glances = {});
 
 }  // namespace tagfield

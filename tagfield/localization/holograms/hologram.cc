@@ -20,8 +20,9 @@ constexpr double kFinestCell = 0.1;     ///< [λ]
 constexpr double kThoroughCell = 0.16;  ///< Half of a lobe's width [λ].
 constexpr double kMostCells = 1000.0;   ///< From the middle to the edge of a grid.
 
-/// The place near `start` where growing apertures lead the fit.
-PlaceVector climb_gradually(const TagPhases& phases, const HeightModel& height, PlaceVector place) {
+/// Position that the fit reaches from `place` over growing apertures.
+PositionVector climb_gradually(const TagPhases& phases, const HeightModel& height,
+                               PositionVector place) {
   const double lambda = 2.0 * longest_cycle(phases);
   for (const double length : {3.0 * kFirstAperture * lambda, 9.0 * kFirstAperture * lambda}) {
     place = climb(phases, apertures(phases, length), height, place);
@@ -29,23 +30,23 @@ PlaceVector climb_gradually(const TagPhases& phases, const HeightModel& height, 
   return place;
 }
 
-/// Of as many reads noise alone adds up to 15 % in one of ten places (a Rayleigh amplitude's
-/// quantile √(ln 10/100)), and a place where a third of the waves agree falls below that in less
-/// than 1 %. Reads of each offset that isn't known add up by themselves.
+/// With this many reads, noise alone adds up to 15 % at one point in ten (quantile √(ln 10/100) of
+/// a Rayleigh amplitude), and a point where a third of the phasors agree falls below that in less
+/// than 1 % of cases. Reads of each unknown offset are summed separately.
 std::size_t glance_reads(const TagPhases& phases) {
   constexpr std::size_t kOfOne = 100;
   constexpr std::size_t kOfEach = 16;
   return std::max(kOfOne, kOfEach * apertures(phases, kWholeAperture).size());
 }
 
-/// Two glances by reads that lie between each other's.
-GridGlances glances_by(const TagPhases& phases, double height, const Eigen::Vector2d& middle,
-                       const Brightness& brightness) {
+/// Two glances that use interleaved reads.
+GridPreselection glances_by(const TagPhases& phases, double height, const Eigen::Vector2d& middle,
+                            const Brightness& brightness) {
   const std::size_t count = glance_reads(phases);
   const auto reads = [&](bool between) {
     return search_reads(thinned(phases, count, between), kWholeAperture, height, middle);
   };
-  GridGlances glances;
+  GridPreselection glances;
   glances.at_blocks = [&brightness, some = reads(false)](const CellBlock& block) -> BlockLight {
     if (brightness.at_a_glance) return brightness.at_a_glance(some, block);
     return light_of_block([&](const Tile& x, const Tile& y) { return brightness.at(some, x, y); },
@@ -114,11 +115,11 @@ Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y)
   return wave_amplitudes(reads, x, y);
 }
 
-BlockLight coherent_glance(const SearchReads& reads, const CellBlock& block) {
+BlockLight approximate_coherence(const SearchReads& reads, const CellBlock& block) {
   return block_amplitudes(reads, block);
 }
 
-Brightness coherent_light() { return {coherent_brightness, coherent_glance}; }
+Brightness coherent_light() { return {coherent_brightness, approximate_coherence}; }
 
 Tile brightness_in_space(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z) {
   return wave_amplitudes(reads, x, y, z);
@@ -140,7 +141,7 @@ std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height
     levels.push_back([&brightness, level = search_reads(reads, aperture, height, middle)](
                          const Tile& x, const Tile& y) { return brightness.at(level, x, y); });
   };
-  GridGlances glances;
+  GridPreselection glances;
   if (options.thorough && 2 * glance_reads(phases) <= static_cast<std::size_t>(coarse.size())) {
     glances = glances_by(phases, height, middle, brightness);
   }
@@ -156,13 +157,14 @@ std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height
   return places;
 }
 
-std::vector<PlaceVector> search_places(const TagPhases& phases, const HeightModel& height,
-                                       const SearchOptions& options, const Brightness& brightness) {
-  std::vector<PlaceVector> places;
+std::vector<PositionVector> search_positions(const TagPhases& phases, const HeightModel& height,
+                                             const SearchOptions& options,
+                                             const Brightness& brightness) {
+  std::vector<PositionVector> places;
   const bool known = height.kind == HeightModel::Kind::kKnown;
   for (const double z : heights_to_search(height)) {
     for (const Eigen::Vector2d& p : search_plane(phases, z, options, brightness)) {
-      const PlaceVector place = to_unknowns(height, {p.x(), p.y(), z});
+      const PositionVector place = to_unknowns(height, {p.x(), p.y(), z});
       places.push_back(known ? place : climb_gradually(phases, height, place));
     }
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Search for the places that many phases agree on, over all the area where a tag could be read,
-/// from coarse to fine: short apertures first, whose lobes are wide, then ever longer ones on ever
-/// finer grids where the coarser ones were bright. What makes a place bright is up to the method.
+/// Coarse-to-fine search for the positions that many phases agree on, over the whole area where a
+/// tag could be read: first short apertures, whose lobes are wide, then longer and longer ones on
+/// finer and finer grids where the coarser ones were bright. The method defines the brightness.
 ///
-/// Brightness is computed in single precision, a tile of places at a time, in loops that compilers
-/// turn into vector instructions. Phases are brought near zero in double precision before.
+/// Brightness is computed in single precision, a tile of points at a time, in loops that compilers
+/// vectorize. Phases are first reduced to near zero in double precision.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,15 +20,15 @@
 
 namespace tagfield {
 
-/// Brightness by some reads, relative to the same middle [m].
+/// Brightness from some reads; points are relative to the same middle as the reads [m].
 struct Brightness {
-  /// Of the places (x, y) of a tile.
+  /// At the points (x, y) of a tile.
   std::function<Tile(const SearchReads& reads, const Tile& x, const Tile& y)> at;
-  /// About that of a block's cells; null where tiles have to do.
+  /// Approximation at a block's cells; null to use tiles instead.
   std::function<BlockLight(const SearchReads& reads, const CellBlock& block)> at_a_glance{};
 };
 
-/// Measured less predicted phase of one read [turns], not wrapped.
+/// Measured minus predicted phase of one read [turns], not wrapped.
 inline Tile residual_turns(const SearchRead& read, const Tile& x, const Tile& y) {
   return read.turns -
          read.turns_per_metre *
@@ -37,14 +37,14 @@ inline Tile residual_turns(const SearchRead& read, const Tile& x, const Tile& y)
 
 /// `turns` wrapped to [−½, ½]; |turns| < 2²².
 inline Tile wrapped_turns(const Tile& turns) {
-  // Added to a number of this size, fractions are rounded off, in every instruction set.
+  // Adding a number of this size rounds fractions off, with every instruction set.
   constexpr float kRounds = 12582912.0f;  // 1.5 · 2²³
   const Tile shifted = turns + kRounds;
   return turns - (shifted - kRounds);
 }
 
-/// Cosine and sine of 2πt, |t| ≤ ½, to 2·10⁻⁵: those of πt by polynomials that meet them at
-/// Chebyshev's points, then the double angle.
+/// Cosine and sine of 2πt, |t| ≤ ½, to 2·10⁻⁵: polynomials for πt, interpolated at Chebyshev nodes,
+/// then the double-angle formulas.
 inline void wave_of(const Tile& t, Tile& cosine, Tile& sine) {
   const Tile u = t.square();
   const Tile s = t * (3.1415903f + u * (-5.1674058f + u * (2.5440002f - u * 0.5594350f)));
@@ -55,26 +55,28 @@ inline void wave_of(const Tile& t, Tile& cosine, Tile& sine) {
 
 /// Σ |Σ e^{j(φ − k r)}| over the apertures, the real part where the offset is known.
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y);
-/// About the same of a block's cells; block_sums() has how near.
-BlockLight coherent_glance(const SearchReads& reads, const CellBlock& block);
+/// Approximation of the same at a block's cells; see block_sums() for its accuracy.
+BlockLight approximate_coherence(const SearchReads& reads, const CellBlock& block);
 /// Both.
 Brightness coherent_light();
-/// The same, each place with a height of its own above the plane.
+/// As coherent_brightness(), but with a height above the plane for each point.
 Tile brightness_in_space(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z);
 
-/// How the area is searched.
+/// Options of the search.
 struct SearchOptions {
-  double max_range_m = 12.0;  ///< Half of the reads are from nearer; over 0.
+  double max_range_m = 12.0;  ///< Half of the reads are from within this range; over 0.
   double cell_m = 0.25;       ///< Of the coarsest grid; over 0.
-  std::size_t maxima = 12;    ///< So many are returned at most.
-  /// Levels take so many at most, evenly thinned, but for the last of a thorough search.
+  std::size_t maxima = 12;    ///< Maximum number returned.
+  /// Maximum number used by a level, evenly thinned, except for the last level of a thorough
+  /// search.
   std::size_t reads = 800;
-  /// Whole apertures on all of the area at once: some twenty times the work. Reflections bend the
-  /// phase over decimetres, so that short apertures are brightest elsewhere.
+  /// Use whole apertures over the whole area from the start: some twenty times the work.
+  /// Reflections distort the phase over decimetres, so that short apertures are brightest
+  /// elsewhere.
   bool thorough = false;
 };
 
-/// Throws Error where cells are too many.
+/// Throws Error if there are too many cells.
 void check_cells(const SearchOptions& options);
 
 /// Adds the keys of a search's options.
@@ -96,27 +98,29 @@ void add_search_options(OptionTable<Options>& of) {
   of.check = [](const Options& options) { check_cells(options); };
 }
 
-/// The brightest local maxima on the plane z = `height`, brightest first; none where no place is
-/// within the range of all reads. With λ the longest wavelength, apertures are 1.5 λ, three times
-/// that for each level on, and whole on the last, whose cells are at most λ/10.
+/// The brightest local maxima on the plane z = `height`, brightest first; none if no point is
+/// within range of half of the reads. With λ the longest wavelength, apertures are 1.5 λ on the
+/// first level, three times as long on each further one, and whole on the last, whose cells are at
+/// most λ/10.
 std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height,
                                           const SearchOptions& options,
                                           const Brightness& brightness);
 
-/// search_plane() as the fit sees it. Where the height is unknown, planes at several heights on the
-/// tag's side are searched, and each place found is fitted in all three coordinates over growing
-/// apertures, as lobes are narrower than planes are apart.
-std::vector<PlaceVector> search_places(const TagPhases& phases, const HeightModel& height,
-                                       const SearchOptions& options, const Brightness& brightness);
+/// search_plane() in the unknowns of the fit. If the height is unknown, planes at several heights
+/// on the tag's side are searched, and each position found is fitted in all three coordinates over
+/// growing apertures, as lobes are narrower than the spacing of the planes.
+std::vector<PositionVector> search_positions(const TagPhases& phases, const HeightModel& height,
+                                             const SearchOptions& options,
+                                             const Brightness& brightness);
 
 /// Middle of the box around the antennas, seen from above [m]; phases must not be empty.
 Eigen::Vector2d middle_of(const TagPhases& phases);
 
-/// Every n-th read, so that about `count` are left at most, or as many that lie between those.
+/// Every n-th read, so that at most about `count` remain; with `between`, those halfway between.
 TagPhases thinned(const TagPhases& phases, std::size_t count, bool between = false);
 
-/// Reads in single precision about `middle`, for a tag at `height`, with the apertures of `length`
-/// [m].
+/// Reads in single precision relative to `middle`, for a tag at `height`, with apertures of
+/// `length` [m].
 SearchReads search_reads(const TagPhases& phases, double length, double height,
                          const Eigen::Vector2d& middle);
 

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFirstHalf = 0.45;  ///< Half of the first box's sides [m].
-constexpr double kHalfSide = 4.5;    ///< Half of the next ones' sides.
+constexpr double kHalfSide = 4.5;    ///< Half of the later boxes' sides [standard deviations].
 constexpr double kLeastHalf = 1e-4;  ///< [m]
 constexpr int kMostBoxes = 6;
 
@@ -40,7 +40,7 @@ std::vector<Vector3d> places_of(const Box& box) {
   return places;
 }
 
-/// Fine enough for lobes of a twentieth of a wavelength, of which the first box has many.
+/// Fine enough for lobes of a twentieth of a wavelength, of which the first box contains many.
 Box first_about(const Vector3d& start, bool level) {
   const Eigen::Array3i cells = level ? Eigen::Array3i(91, 91, 1) : Eigen::Array3i(31, 31, 15);
   return {start, {kFirstHalf, kFirstHalf, level ? 0.0 : kFirstHalf}, cells};
@@ -51,7 +51,7 @@ std::vector<double> tempered(std::vector<double> logs, double doubt) {
   return logs;
 }
 
-/// By the logarithms at each of a box's cells.
+/// Spread from the logarithms at each cell of a box.
 LikelihoodSpread over(const Box& box, const std::vector<double>& logs) {
   const std::vector<Vector3d> places = places_of(box);
   LikelihoodSpread spread;

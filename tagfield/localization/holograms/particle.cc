@@ -14,27 +14,28 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kCoarseReads = 300;  ///< Short apertures look at so many reads.
-constexpr int kStepsOfLevel = 4;           ///< Of the apertures before the whole ones.
+constexpr std::size_t kCoarseReads = 300;  ///< Reads used by short apertures.
+constexpr int kStepsOfLevel = 4;           ///< For all apertures except the whole ones.
 constexpr int kMostSteps = 60;
-constexpr double kEffective = 0.5;      ///< Part of the particles that is to carry the weight.
+constexpr double kEffective = 0.5;      ///< Minimum effective number of particles, relative to all.
 constexpr double kClusterRadius = 0.1;  ///< [m]
 constexpr std::size_t kMostClusters = 8;
 constexpr int kDrawsOfPlace = 1000;
 
-/// Places relative to the middle of the reads and the plane of the tag [m], with their coherence.
+/// Positions relative to the middle of the reads and the plane of the tag [m], with their
+/// coherence.
 struct Particles {
   std::vector<Eigen::Vector3f> places;
   std::vector<double> coherence;
 };
 
-/// One target of the annealing: coherence over apertures of one length.
+/// One annealing target: coherence over apertures of one length.
 struct Level {
   SearchReads reads;
-  double spread_m = 0.0;  ///< Greatest move of a particle, as wide as the lobes.
+  double spread_m = 0.0;  ///< Maximum scale of a move, as wide as the lobes.
 };
 
-/// What all steps of one tag share.
+/// State shared by all steps of one tag.
 struct Search {
   TagPhases phases;
   HeightModel height;
@@ -55,9 +56,9 @@ Eigen::Vector3d in_world(const Search& search, const Eigen::Vector3f& place) {
          place.cast<double>();
 }
 
-/// One place anywhere in reach; the middle where none is found.
-Eigen::Vector3f draw_place(const Search& search, const Reach& reach, const ParticleOptions& options,
-                           RandomStream& stream) {
+/// Random position in reach; the middle if none is found.
+Eigen::Vector3f draw_position(const Search& search, const Reach& reach,
+                              const ParticleOptions& options, RandomStream& stream) {
   const bool known = search.height.kind == HeightModel::Kind::kKnown;
   for (int draw = 0; draw < kDrawsOfPlace; ++draw) {
     const double x = options.max_range_m * (2.0 * uniform(stream) - 1.0);
@@ -69,7 +70,7 @@ Eigen::Vector3f draw_place(const Search& search, const Reach& reach, const Parti
   return Eigen::Vector3f::Zero();
 }
 
-/// Effective number of particles, as a part of them, were they weighted by e^(gain · coherence).
+/// Effective number of particles under the weights e^(gain · coherence), relative to all.
 double effective_part(const std::vector<double>& coherence, double gain) {
   const double most = *std::max_element(coherence.begin(), coherence.end());
   double sum = 0.0;
@@ -82,7 +83,7 @@ double effective_part(const std::vector<double>& coherence, double gain) {
   return sum * sum / squares / static_cast<double>(coherence.size());
 }
 
-/// The greatest gain up to `most` that leaves enough particles with weight.
+/// Largest gain up to `most` that keeps enough effective particles.
 double next_gain(const std::vector<double>& coherence, double most) {
   if (effective_part(coherence, most) >= kEffective) return most;
   double low = 0.0;
@@ -116,12 +117,12 @@ void resample(Particles& particles, double gain, RandomStream& stream) {
   particles = std::move(drawn);
 }
 
-/// Scale of a move: any from a hundredth of `spread` to all of it, as modes are of many widths.
+/// Scale of a move, from a hundredth of `spread` to all of it, as modes have many widths.
 double draw_scale(double spread, RandomStream& stream) {
   return spread * std::pow(10.0, -2.0 * uniform(stream));
 }
 
-/// One move of each particle by Metropolis's rule, which leaves e^(gain · coherence) as it is.
+/// One Metropolis move of each particle, which leaves e^(gain · coherence) invariant.
 void move_particles(const Search& search, const Level& level, double gain, Particles& particles,
                     RandomStream& stream) {
   const bool known = search.height.kind == HeightModel::Kind::kKnown;
@@ -133,7 +134,7 @@ void move_particles(const Search& search, const Level& level, double gain, Parti
     const double up = known ? 0.0 : standard_normal(stream);
     Eigen::Vector3f there =
         place + (scale * Eigen::Vector3d(level_move[0], level_move[1], up)).cast<float>();
-    // A tag on the other side is not to be told from its image on this one.
+    // A tag on the other side cannot be distinguished from its mirror image on this one.
     if (!known) there.z() = static_cast<float>(search.height.side) * std::abs(there.z());
     proposed.push_back(there);
   }
@@ -147,7 +148,7 @@ void move_particles(const Search& search, const Level& level, double gain, Parti
   }
 }
 
-/// Gain of one level, from 0 on, by resampling and moving. Returns the gain reached.
+/// Raises the gain of one level from `reached` by resampling and moving. Returns the gain reached.
 double anneal(const Search& search, const Level& level, double reached, int steps,
               Particles& particles, RandomStream& stream) {
   double gain = reached;
@@ -166,29 +167,29 @@ Particles spread_and_anneal(const Search& search, const ParticleOptions& options
   particles.places.reserve(options.particles);
   const Reach reach(search.phases, options.max_range_m);
   for (std::size_t i = 0; i < options.particles; ++i) {
-    particles.places.push_back(draw_place(search, reach, options, stream));
+    particles.places.push_back(draw_position(search, reach, options, stream));
   }
   for (const Level& level : search.levels) {
     const bool last = &level == &search.levels.back();
-    // What the shorter apertures have drawn together is taken as spread anew.
+    // The particles concentrated by shorter apertures are the initial spread of this level.
     particles.coherence = coherence_of(level.reads, particles.places);
     anneal(search, level, 0.0, last ? kMostSteps : kStepsOfLevel, particles, stream);
   }
-  // The last moves let each mode take its shape.
+  // The last moves let the particles settle into the shape of each mode.
   for (int i = 0; i < kStepsOfLevel; ++i) {
     move_particles(search, search.levels.back(), search.concentration, particles, stream);
   }
   return particles;
 }
 
-/// Means of the particles around the best ones, as unknowns of the fit.
-std::vector<PlaceVector> clusters_of(const Search& search, const Particles& particles) {
+/// Means of the particles around the best ones, in the unknowns of the fit.
+std::vector<PositionVector> clusters_of(const Search& search, const Particles& particles) {
   std::vector<std::size_t> order(particles.places.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return particles.coherence[a] > particles.coherence[b];
   });
-  std::vector<PlaceVector> means;
+  std::vector<PositionVector> means;
   std::vector<bool> taken(order.size(), false);
   for (const std::size_t best : order) {
     if (taken[best]) continue;
@@ -207,7 +208,7 @@ std::vector<PlaceVector> clusters_of(const Search& search, const Particles& part
   return means;
 }
 
-/// Variance of a phase [rad²]: its noise and, where it is known, what the pose error does to it.
+/// Variance of a phase [rad²]: its noise and, where known, the effect of the pose error.
 double phase_variance(const LocalizationProblem& problem, const SamplesOfTag& samples,
                       const TagPhases& phases, double least) {
   const double noise = largest_phase_noise(samples, least);
@@ -247,7 +248,7 @@ TagEstimate locate_by_particles(const LocalizationProblem& problem, const std::s
       });
 }
 
-/// The keys of its options.
+/// Keys of the options.
 const OptionTable<ParticleOptions>& particle_options() {
   using O = ParticleOptions;
   static const OptionTable<O> of{

@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-constexpr Eigen::Index kReachReads = 60;  ///< Antenna places by which the range is checked.
+constexpr Eigen::Index kReachReads = 60;  ///< Approximate number of antenna positions checked.
 
 std::vector<Eigen::Vector3d> some_antennas(const TagPhases& phases) {
   const Eigen::Index step = std::max<Eigen::Index>(1, phases.size() / kReachReads);
@@ -19,7 +19,7 @@ std::vector<Eigen::Vector3d> some_antennas(const TagPhases& phases) {
   return antennas;
 }
 
-/// Antennas that are further than that from `p`.
+/// Number of antennas further than `range` from `p`.
 std::size_t count_beyond(const std::vector<Eigen::Vector3d>& antennas, const Eigen::Vector3d& p,
                          double range) {
   const auto count = std::count_if(

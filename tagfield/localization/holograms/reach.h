@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The area where a tag could have been read.
+/// Area in which a tag could have been read.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 
 namespace tagfield {
 
-/// The places that are within a range of the antennas at half of the reads, of which about sixty
-/// are looked at. Strong readers and reflections carry some reads further.
+/// Region within range of the antennas of at least half of the reads, of which about sixty are
+/// sampled. Some reads come from further away, due to strong readers and reflections.
 class Reach {
  public:
   /// `max_range` [m].
@@ -23,27 +23,27 @@ class Reach {
   [[nodiscard]] double max_range() const { return max_range_; }
 
  private:
-  std::vector<Eigen::Vector3d> antennas_;  ///< At the reads that are looked at.
+  std::vector<Eigen::Vector3d> antennas_;  ///< At the sampled reads.
   double max_range_;
 };
 
-/// A Reach for many places (x, y, height).
+/// A Reach for many points (x, y, height).
 class PlaneInReach {
  public:
   PlaneInReach(const TagPhases& phases, double height, double max_range);
 
-  /// How many places of a surrounding are in reach. `kMixed` may be all or none, too.
+  /// Which points of a surrounding are in reach. `kMixed` may also be all or none.
   enum class Part { kNone, kAll, kMixed };
-  /// The places up to some radius from one.
+  /// The points within some radius of a point.
   struct Surrounding {
     Part part = Part::kMixed;
-    std::size_t beyond = 0;  ///< Antennas whose range ends before all of the places.
-    std::vector<Eigen::Vector3d> undecided;  ///< Those whose range may end between them.
+    std::size_t beyond = 0;  ///< Number of antennas that have none of the points in range.
+    std::vector<Eigen::Vector3d> undecided;  ///< Antennas that may have some in range.
   };
-  /// Of `middle`, up to `radius` [m].
+  /// Surrounding of `middle` with `radius` [m].
   [[nodiscard]] Surrounding around(const Eigen::Vector2d& middle, double radius) const;
 
-  /// Whether `p`, which is in the surrounding, is in reach.
+  /// Whether `p`, a point of the surrounding, is in reach.
   [[nodiscard]] bool holds(const Surrounding& of, const Eigen::Vector2d& p) const;
 
  private:

@@ -8,7 +8,7 @@
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/holograms/likelihood_spread.h"
 #include "tagfield/localization/holograms/reach.h"
-#include "tagfield/localization/holograms/stretches.h"
+#include "tagfield/localization/holograms/segments.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/tag_fit.h"
 
@@ -17,43 +17,43 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFirstCell = 0.9;          ///< Of λ/2, by which phases turn once.
+constexpr double kFirstCell = 0.9;          ///< Of λ/2, which is one turn of phase.
 constexpr std::size_t kMaxima = 24;         ///< On each plane.
-constexpr double kOnePlace = 0.45;          ///< Maxima nearer than this are of one place [m].
-constexpr double kLeastProbability = 0.01;  ///< Of the probability, of a place that is named.
-/// What stands within a wavelength of a tag shifts the place that its waves come from, along with
-/// it: standard deviation along each axis, chosen over twelve halls and held against twelve others
+constexpr double kOnePlace = 0.45;          ///< Maxima closer than this are one position [m].
+constexpr double kLeastProbability = 0.01;  ///< Of a candidate, relative to the best.
+/// Objects within a wavelength of a tag shift the point that its waves appear to come from:
+/// standard deviation along each axis, chosen on twelve halls and checked on twelve others
 /// (docs/methods.md) [λ].
 constexpr double kShift = 0.025;
 
-/// What the steps of one tag share.
+/// State shared by the steps of one tag.
 struct RobustSearch {
   TagPhases phases;
   HeightModel height;
   double wavelength = 0.0;  ///< Of the carrier [m].
   double max_range_m = 0.0;
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  StretchedReads all;  ///< Places are relative to `middle` and `height.z`.
+  SegmentedReads all;  ///< Points are relative to `middle` and `height.z`.
 };
 
 double wavelength_of(const LocalizationProblem& problem, const TagPhases& phases) {
   return 2.0 * problem.multiple() * longest_cycle(phases);
 }
 
-/// The best places at a height, with the plane's height. All cells are looked at by half of the
-/// reads, the best tenth of them by all.
+/// Best positions on a plane at height z. All cells are evaluated with half of the reads, the best
+/// tenth of them with all.
 std::vector<Vector3d> best_on_plane(const RobustSearch& search, const TagPhases& coarse,
                                     const TagPhases& coarsest, double z) {
-  const StretchedReads few = stretched_reads(coarse, search.wavelength, z, search.middle);
-  const StretchedReads fewest = stretched_reads(coarsest, search.wavelength, z, search.middle);
-  const auto level = [](const StretchedReads& reads, int first, int last) {
-    return [&reads, choice = StretchChoice{first, last}](const Tile& x, const Tile& y) {
-      return stretch_likelihood(reads, choice, x, y, Tile::Zero());
+  const SegmentedReads few = segmented_reads(coarse, search.wavelength, z, search.middle);
+  const SegmentedReads fewest = segmented_reads(coarsest, search.wavelength, z, search.middle);
+  const auto level = [](const SegmentedReads& reads, int first, int last) {
+    return [&reads, choice = SegmentChoice{first, last}](const Tile& x, const Tile& y) {
+      return segment_likelihood(reads, choice, x, y, Tile::Zero());
     };
   };
   const Grid grid{search.middle, kFirstCell * longest_cycle(search.phases), search.max_range_m};
   const PlaneInReach in_reach(search.phases, z, search.max_range_m);
-  GridGlances glances;
+  GridPreselection glances;
   glances.at_blocks = [first = level(fewest, 0, 0)](const CellBlock& block) {
     return light_of_block(first, block);
   };
@@ -81,28 +81,28 @@ Vector3d origin_of(const RobustSearch& search) {
   return {search.middle.x(), search.middle.y(), search.height.z};
 }
 
-/// Of a part of the way, or of all.
+/// Likelihood of a part of the path, or of all of it.
 LogLikelihood likelihood_of(const RobustSearch& search, int part) {
   return [&search, part](const Tile& x, const Tile& y, const Tile& z) {
-    return stretch_likelihood(search.all, {kForPlaces.first, kForPlaces.last, part}, x, y, z);
+    return segment_likelihood(search.all, {kForPlaces.first, kForPlaces.last, part}, x, y, z);
   };
 }
 
-/// How much more the parts of the way disagree than chance lets them: twice the log-likelihood that
-/// a place for each part gains over one for all, of which chance makes one a degree of freedom.
+/// Disagreement between the parts of the path: twice the log-likelihood gained by a position per
+/// part over a common one, per degree of freedom; 1 is expected by chance.
 double disagreement(const RobustSearch& search, LikelihoodSpread spread) {
   spread.mean -= origin_of(search);
   constexpr double kDeviations = 6.0;
   std::vector<LogLikelihood> parts;
-  parts.reserve(kWayParts);
-  for (int part = 0; part < kWayParts; ++part) parts.push_back(likelihood_of(search, part));
+  parts.reserve(kPathParts);
+  for (int part = 0; part < kPathParts; ++part) parts.push_back(likelihood_of(search, part));
   double gained = -spread.log_peak;
   for (const double greatest : greatest_about(spread, kDeviations, parts)) gained += greatest;
   const int unknowns = search.height.unknowns();
-  return 2.0 * gained / (unknowns * (kWayParts - 1));
+  return 2.0 * gained / (unknowns * (kPathParts - 1));
 }
 
-/// The likelihood about each of some places, once it is asked for.
+/// Likelihood around each position, computed on first use.
 class FirstBoxes {
  public:
   FirstBoxes(const RobustSearch& search, const std::vector<Vector3d>& places)
@@ -111,8 +111,8 @@ class FirstBoxes {
     std::optional<FirstBox>& box = boxes_[number];
     if (!box) {
       const bool level = search_.height.kind == HeightModel::Kind::kKnown;
-      box =
-          first_box(likelihood_of(search_, kWholeWay), places_[number] - origin_of(search_), level);
+      box = first_box(likelihood_of(search_, kWholePath), places_[number] - origin_of(search_),
+                      level);
     }
     return *box;
   }
@@ -129,15 +129,15 @@ bool is_new(const std::vector<LikelihoodSpread>& all, const Vector3d& p) {
   });
 }
 
-/// How the likelihood, taken to the power of 1/`doubt`, spreads about the places, one for all that
-/// are near each other, the most probable first.
+/// Spread of the likelihood, raised to the power 1/`doubt`, around the positions, one for each
+/// group of close ones, the most probable first.
 std::vector<LikelihoodSpread> distinct(const RobustSearch& search,
                                        const std::vector<Vector3d>& places, double doubt,
                                        FirstBoxes& boxes) {
   std::vector<LikelihoodSpread> all;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!is_new(all, places[i])) continue;
-    all.push_back(likelihood_spread(likelihood_of(search, kWholeWay), boxes.about(i), doubt));
+    all.push_back(likelihood_spread(likelihood_of(search, kWholePath), boxes.about(i), doubt));
     all.back().mean += origin_of(search);
   }
   std::stable_sort(all.begin(), all.end(),
@@ -149,7 +149,7 @@ std::vector<LikelihoodSpread> distinct(const RobustSearch& search,
   return kept;
 }
 
-/// More widely where parts of the way disagree at the most probable place.
+/// Spreads, widened if parts of the path disagree at the most probable position.
 std::vector<LikelihoodSpread> doubted(const RobustSearch& search,
                                       const std::vector<Vector3d>& places) {
   FirstBoxes boxes(search, places);
@@ -159,22 +159,22 @@ std::vector<LikelihoodSpread> doubted(const RobustSearch& search,
   return doubt > 1.0 ? distinct(search, places, doubt, boxes) : spreads;
 }
 
-/// What the likelihood does not know of: the shift, and a told pose error, which is slower than
-/// fading.
+/// Covariance that the likelihood does not include: the shift, and a given pose error, which varies
+/// more slowly than fading.
 Eigen::Matrix3d beyond_likelihood(const RobustSearch& search, const TagFit& fit) {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   const double shift = kShift * search.wavelength;
   covariance.topLeftCorner<2, 2>() += shift * shift * Eigen::Matrix2d::Identity();
   if (!search.phases.pose_error) return covariance;
-  return covariance + to_place_covariance(search.height, fit.unknowns,
-                                          honest_covariance(search.phases, search.height, fit));
+  return covariance + to_position_covariance(search.height, fit.unknowns,
+                                             honest_covariance(search.phases, search.height, fit));
 }
 
 Candidate candidate_of(const RobustSearch& search, const LikelihoodSpread& spread) {
   Candidate candidate;
   candidate.p_WT = spread.mean;
   if (search.height.kind == HeightModel::Kind::kKnown) candidate.p_WT.z() = search.height.z;
-  const PlaceVector place = to_unknowns(search.height, candidate.p_WT);
+  const PositionVector place = to_unknowns(search.height, candidate.p_WT);
   const TagFit fit{place, offsets_at(search.phases, search.height, place), 0.0};
   candidate.covariance = spread.covariance + beyond_likelihood(search, fit);
   candidate.expected_error_m = std::sqrt(candidate.covariance->topLeftCorner<2, 2>().trace());
@@ -199,7 +199,7 @@ TagEstimate judged(const LocalizationProblem& problem, const RobustSearch& searc
 TagEstimate locate_robustly(const LocalizationProblem& problem, const std::string& tag,
                             const SamplesOfTag& samples, const RobustOptions& options) {
   TagEstimate estimate = begun(tag, samples);
-  const std::string hopeless = why_hopeless(samples);
+  const std::string hopeless = why_not_locatable(samples);
   if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
   RobustSearch search;
   search.phases = coherent_reads(problem, samples);
@@ -210,7 +210,7 @@ TagEstimate locate_robustly(const LocalizationProblem& problem, const std::strin
   search.wavelength = wavelength_of(problem, search.phases);
   search.max_range_m = options.max_range_m;
   search.middle = middle_of(search.phases);
-  search.all = stretched_reads(search.phases, search.wavelength, search.height.z, search.middle);
+  search.all = segmented_reads(search.phases, search.wavelength, search.height.z, search.middle);
   return judged(problem, search, doubted(search, best_places(search, options.search_reads)),
                 std::move(estimate));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Places amid reflections: by stretches of the way, each believed as far as its waves add up, and
-/// with an expected error that is the spread of their likelihood. docs/methods.md has the equations
-/// and the figures.
+/// Localization amid reflections: from sections of the antenna's path, each weighted by how well
+/// its phasors add up, with the spread of their likelihood as the expected error. docs/methods.md
+/// has the equations and the figures.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 namespace tagfield {
 
 struct RobustOptions {
-  double max_range_m = 12.0;       ///< Half of the reads are from nearer; over 0.
-  std::size_t search_reads = 800;  ///< The search takes so many at most; at least 1.
+  double max_range_m = 12.0;       ///< Half of the reads are from within this range; over 0.
+  std::size_t search_reads = 800;  ///< Maximum number used by the search; at least 1.
 };
 
-/// "robust": all tags, one by one. Throws Error on options out of their range.
+/// Method "robust": each tag independently. Throws Error on options out of range.
 Method robust_method(const RobustOptions& options = {});
 
 }  // namespace tagfield

@@ -7,19 +7,20 @@
 namespace tagfield {
 namespace {
 
-/// From coarse to fine, and where that leads to no place that most waves agree on, thoroughly.
-std::vector<PlaceVector> brightest_places(const TagPhases& phases, const HeightModel& height,
-                                          SearchOptions options) {
+/// Coarse-to-fine search, followed by a thorough one if it finds no position that most phasors
+/// agree on.
+std::vector<PositionVector> hologram_peaks(const TagPhases& phases, const HeightModel& height,
+                                           SearchOptions options) {
   constexpr double kMost = 0.85;
-  constexpr std::size_t kMoreMaxima = 3;  ///< Times as many, as reflections make many.
-  std::vector<PlaceVector> places = search_places(phases, height, options, coherent_light());
-  const bool agreed = std::any_of(places.begin(), places.end(), [&](const PlaceVector& place) {
+  constexpr std::size_t kMoreMaxima = 3;  ///< Times as many, as reflections cause many.
+  std::vector<PositionVector> places = search_positions(phases, height, options, coherent_light());
+  const bool agreed = std::any_of(places.begin(), places.end(), [&](const PositionVector& place) {
     return coherent_share(phases, height, place) > kMost;
   });
   if (agreed) return places;
   options.thorough = true;
   options.maxima *= kMoreMaxima;
-  return search_places(phases, height, options, coherent_light());
+  return search_positions(phases, height, options, coherent_light());
 }
 
 TagEstimate locate_by_hologram(const LocalizationProblem& problem, const std::string& tag,
@@ -29,11 +30,11 @@ TagEstimate locate_by_hologram(const LocalizationProblem& problem, const std::st
   const SearchOptions& search = options;
   return locate_by_waves(problem, tag, samples, judgement,
                          [&](const TagPhases& phases, const HeightModel& height) {
-                           return brightest_places(phases, height, search);
+                           return hologram_peaks(phases, height, search);
                          });
 }
 
-/// The keys of its options.
+/// Keys of the options.
 const OptionTable<SarOptions>& sar_options() {
   static const OptionTable<SarOptions> of = [] {
     OptionTable<SarOptions> table{{setting<SarOptions>(

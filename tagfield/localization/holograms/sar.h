@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Holograms, as of a synthetic aperture: the reads of one antenna and channel are added up as
-/// waves at each place of a grid, the sums of several antennas and channels by magnitude, and the
-/// brightest place is the tag's. docs/methods.md has the equations and the figures.
+/// Synthetic-aperture holograms: at each point of a grid, the phasors of one antenna and channel
+/// are summed coherently and the sums of several antennas and channels by magnitude; the tag is at
+/// the brightest point. docs/methods.md has the equations and the figures.
 #pragma once
 
 #include "tagfield/localization/holograms/coherent_fit.h"
@@ -15,7 +15,7 @@ struct SarOptions : SearchOptions {
   double min_share = 0.35;  ///< See CoherentJudgement; in (0, 1].
 };
 
-/// "sar": all tags, one by one. Throws Error on options out of their range.
+/// Method "sar": each tag independently. Throws Error on options out of range.
 Method sar_method(const SarOptions& options = {});
 
 }  // namespace tagfield

@@ -12,16 +12,17 @@ namespace {
 
 constexpr int kRows = 4;
 static_assert(kBlock % kRows == 0 && kBlock == kWaveLanes);
-constexpr std::size_t kAtOnce = 32;  ///< Reads whose waves are kept.
+constexpr std::size_t kAtOnce = 32;  ///< Reads whose phasors are kept.
 
-/// A read's waves along the block's middle row, and what turns them on to the other rows. The third
-/// of each is the sum of both parts: three products in place of four make that of complex numbers.
+/// A read's phasors along the block's middle row, and the factors that rotate them to the other
+/// rows. The third array of each is the sum of both parts: a complex product then takes three
+/// multiplications instead of four.
 struct BlockWaves {
   float cosine[kBlock], sine[kBlock], both[kBlock];
   float row_cosine[kBlock], row_sine[kBlock], row_both[kBlock];
 };
 
-/// Products' sums, by rows.
+/// Sums of products, by rows.
 struct ProductSums {
   float cosines[kBlock][kBlock] = {};
   float sines[kBlock][kBlock] = {};
@@ -46,7 +47,7 @@ inline void make_waves(const SearchRead& read, const CellBlock& block, BlockWave
   }
 }
 
-/// Of kRows rows from `row` on, whose sums stay in registers.
+/// Adds kRows rows starting at `row`, whose sums stay in registers.
 inline void add_products(const BlockWaves* waves, std::size_t count, int row, ProductSums& all) {
   LaneRow cosines[kRows];
   LaneRow sines[kRows];

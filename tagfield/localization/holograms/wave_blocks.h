@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Waves of many reads added up over blocks of cells: rougher than wave_sums.h, and faster.
+/// Phasor sums of many reads over blocks of cells: faster than wave_sums.h, but less accurate.
 #pragma once
 
 #include <cstddef>
@@ -17,15 +17,15 @@ struct BlockSums {
   BlockLight quadrature;
 };
 
-/// Of `count` reads. About the block's middle the distance r(u, v) is taken for
-/// r(u, 0) + r(0, v) − r(0, 0), so that a wave is the product of one for its column and one for its
-/// row, and their sum over the reads one of matrices. That leaves out −u v x y/r³ and terms of
-/// third order: at most |u v|/2r, 2 cm/r at the corners of blocks of 44 cm and a third of it in the
-/// mean (rms). The same to the last bit for each set of instructions.
+/// Sums over `count` reads. Around the block's middle, the distance r(u, v) is approximated by r(u,
+/// 0) + r(0, v) − r(0, 0), so that a phasor is the product of one per column and one per row, and
+/// the sum over the reads a matrix product. This neglects −u v x y/r³ and third-order terms: at
+/// most |u v|/2r, 2 cm/r at the corners of blocks of 44 cm and a third of that rms. Bit-identical
+/// for every instruction set.
 BlockSums block_sums(const SearchRead* reads, std::size_t count, const CellBlock& block,
                      InstructionSet set = instruction_sets().back());
 
-/// As wave_amplitudes(), by such sums.
+/// As wave_amplitudes(), but from block_sums().
 BlockLight block_amplitudes(const SearchReads& reads, const CellBlock& block,
                             InstructionSet set = instruction_sets().back());
 

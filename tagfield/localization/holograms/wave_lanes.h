@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Waves of reads at some lanes' places, for loops in lanes (base/lanes.h) alone.
+/// Phasors of reads at the points of some lanes, only for loops in lanes (base/lanes.h).
 #pragma once
 
 #include <cmath>
@@ -11,18 +11,18 @@
 
 namespace tagfield {
 
-/// Places whose sums stay in registers.
+/// Number of points whose sums stay in registers.
 inline constexpr int kWaveLanes = 16;
 static_assert(kTile % kWaveLanes == 0);
 
-/// A row of such places, which compilers keep in as few registers as it takes.
+/// A row of such points, which compilers keep in as few registers as possible.
 using LaneRow = float __attribute__((vector_size(kWaveLanes * sizeof(float))));
 
 inline void load(const float* from, LaneRow& row) { std::memcpy(&row, from, sizeof row); }
 inline void store(const LaneRow& row, float* to) { std::memcpy(to, &row, sizeof row); }
 
-/// Σ cos and Σ sin of the residuals of `count` reads, as WaveSums has them. `z` is not looked at
-/// for places of the plane.
+/// Σ cos and Σ sin of the residuals of `count` reads, as in WaveSums. `z` is ignored for points in
+/// the plane.
 template <bool in_space>
 inline void add_waves(const SearchRead* reads, std::size_t count, const float* x, const float* y,
                       const float* z, float* in_phase, float* quadrature) {

@@ -13,12 +13,12 @@ namespace {
 
 using Kind = HeightModel::Kind;
 
-constexpr int kLanes = 8;  ///< Reads that are added up side by side.
+constexpr int kLanes = 8;  ///< Reads summed side by side.
 using Lane = double[kLanes];
 
 double sum_of(const Lane& lane) { return std::accumulate(lane, lane + kLanes, 0.0); }
 
-/// What is added up in one loop. The third unknown is left out where the height is known.
+/// Sums of one loop. The third unknown is left out if the height is known.
 struct LaneSums {
   Lane cosine = {}, sine = {};
   Lane cosine_x = {}, cosine_y = {}, cosine_z = {};
@@ -27,7 +27,7 @@ struct LaneSums {
   Lane xx = {}, xy = {}, yy = {}, xz = {}, yz = {}, zz = {};
 };
 
-/// Reads as TagPhases has them, from the first of an aperture on.
+/// Arrays of TagPhases, starting at the first read of an aperture.
 struct ReadArrays {
   const double* x;
   const double* y;
@@ -35,7 +35,7 @@ struct ReadArrays {
   const double* value;
   const double* wavenumber;
 };
-/// The unknowns of the place.
+/// Unknowns of the position.
 struct PlaceInLanes {
   double x, y, third;
   double level;  ///< HeightModel::z.
@@ -48,9 +48,9 @@ inline double square_up(const PlaceInLanes& place, double z) {
   return up * up;
 }
 
-/// One read's wave e^{jψ}, and where its antenna is.
+/// One read's phasor e^{jψ}, and the vector from its antenna.
 struct Wave {
-  double dx, dy, r;  ///< To the place [m].
+  double dx, dy, r;  ///< To the position [m].
   double sine, cosine;
 };
 
@@ -64,7 +64,7 @@ inline Wave wave_of(const ReadArrays& reads, const PlaceInLanes& place, Eigen::I
   return {dx, dy, r, sine, cosine};
 }
 
-/// Read `i` into lane `k`, with what changes as the place moves.
+/// Adds read `i` to lane `k`, with derivatives with respect to the position.
 struct WithSlopes {
   template <Kind kKind>
   static void add(const ReadArrays& reads, const PlaceInLanes& place, Eigen::Index i, int k,
@@ -96,7 +96,7 @@ struct WithSlopes {
   }
 };
 
-/// Likewise the sum alone.
+/// As above, but the sum only.
 struct SumAlone {
   template <Kind kKind>
   static void add(const ReadArrays& reads, const PlaceInLanes& place, Eigen::Index i, int k,
@@ -107,7 +107,7 @@ struct SumAlone {
   }
 };
 
-/// Calls `add(i, k, sums)` for each of `count` reads, by turns into each lane.
+/// Calls `add(i, k, sums)` for each of `count` reads, cycling through the lanes.
 template <class Add>
 inline LaneSums added_up(Eigen::Index count, const Add& add) {
   LaneSums sums;
@@ -132,10 +132,10 @@ LaneSums by_kind(Kind kind, const Of& of) {
   return of(std::integral_constant<Kind, Kind::kFree>{});
 }
 
-/// What `What` adds of all reads of an aperture.
+/// Sums that `What` accumulates over all reads of an aperture.
 template <class What>
 LaneSums lane_sums(const TagPhases& phases, const Aperture& part, const HeightModel& height,
-                   const PlaceVector& place, InstructionSet set) {
+                   const PositionVector& place, InstructionSet set) {
   const ReadArrays reads = arrays_of(phases, part);
   const PlaceInLanes at{place[0], place[1], place[2], height.z};
   return by_kind(height.kind, [&](auto kind) {
@@ -152,7 +152,7 @@ LaneSums lane_sums(const TagPhases& phases, const Aperture& part, const HeightMo
 }  // namespace
 
 WaveSlopes wave_slopes(const TagPhases& phases, const Aperture& part, const HeightModel& height,
-                       const PlaceVector& place, InstructionSet set) {
+                       const PositionVector& place, InstructionSet set) {
   const LaneSums sums = lane_sums<WithSlopes>(phases, part, height, place, set);
   WaveSlopes slopes;
   slopes.sum = {sum_of(sums.cosine), sum_of(sums.sine)};
@@ -167,7 +167,7 @@ WaveSlopes wave_slopes(const TagPhases& phases, const Aperture& part, const Heig
 }
 
 std::complex<double> wave_sum(const TagPhases& phases, const Aperture& part,
-                              const HeightModel& height, const PlaceVector& place,
+                              const HeightModel& height, const PositionVector& place,
                               InstructionSet set) {
   const LaneSums sums = lane_sums<SumAlone>(phases, part, height, place, set);
   return {sum_of(sums.cosine), sum_of(sums.sine)};

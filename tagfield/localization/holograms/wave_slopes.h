@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Waves of many reads added up at one place, with how they change as it moves: the inner loop of
-/// the climb to a hologram's maxima.
+/// Phasor sums of many reads at one position, with their derivatives: the inner loop of the climb
+/// to a hologram's maxima.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,20 +17,20 @@ namespace tagfield {
 struct WaveSlopes {
   std::complex<double> sum;
   /// Σ cos ψ s and Σ sin ψ s with s = k ∂r/∂place [rad/m].
-  PlaceVector in_phase = PlaceVector::Zero();
-  PlaceVector quadrature = PlaceVector::Zero();
-  PlaceVector slopes = PlaceVector::Zero();           ///< Σ s.
+  PositionVector in_phase = PositionVector::Zero();
+  PositionVector quadrature = PositionVector::Zero();
+  PositionVector slopes = PositionVector::Zero();     ///< Σ s.
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();  ///< Σ s sᵀ.
 };
 
-/// Of the reads of one aperture, with ranges and derivatives of range_to(), |ψ| ≤ 10⁵ rad. The same
-/// bits with each set of instructions.
+/// Sums over the reads of one aperture, with the ranges and derivatives of range_to(), |ψ| ≤ 10⁵
+/// rad. Bit-identical for every instruction set.
 WaveSlopes wave_slopes(const TagPhases& phases, const Aperture& part, const HeightModel& height,
-                       const PlaceVector& place, InstructionSet set = instruction_sets().back());
+                       const PositionVector& place, InstructionSet set = instruction_sets().back());
 
-/// S alone.
+/// S only.
 std::complex<double> wave_sum(const TagPhases& phases, const Aperture& part,
-                              const HeightModel& height, const PlaceVector& place,
+                              const HeightModel& height, const PositionVector& place,
                               InstructionSet set = instruction_sets().back());
 
 }  // namespace tagfield

@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-/// Of kWaveLanes places.
+/// Amplitudes at kWaveLanes points.
 template <bool in_space>
 inline void add_amplitudes(const SearchReads& reads, const float* x, const float* y, const float* z,
                            float* sum) {

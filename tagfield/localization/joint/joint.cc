@@ -23,11 +23,11 @@ TagEstimate estimate_of(const JointState& state, const JointCovariance& covarian
   return estimate;
 }
 
-/// What the estimated error of the poses says of them.
+/// Plausibility check of the poses by their estimated error.
 struct PoseCheck {
-  double rms_m = 0.0;      ///< Of the error.
-  double late_s = 0.0;     ///< The lateness that explains most of it,
-  double explained = 0.0;  ///< and the share of its variance that it does.
+  double rms_m = 0.0;      ///< Rms of the error.
+  double late_s = 0.0;     ///< Latency that explains most of it,
+  double explained = 0.0;  ///< and the share of the variance that it explains.
 };
 
 PoseCheck check_of(const LocalizationProblem& problem, const std::vector<AntennaPose>& corrected) {
@@ -57,7 +57,7 @@ PoseCheck check_of(const LocalizationProblem& problem, const std::vector<Antenna
   }
   PoseCheck check;
   if (count < 2.0) return check;
-  // The mean of the error is not told by the reads: it shifts all tags alike.
+  // The mean error is not observable: it shifts all tags alike.
   errors = squares - mean_error.squaredNorm() / count;
   velocities -= mean_velocity.squaredNorm() / count;
   both -= mean_error.dot(mean_velocity) / count;
@@ -68,9 +68,9 @@ PoseCheck check_of(const LocalizationProblem& problem, const std::vector<Antenna
   return check;
 }
 
-/// Why poses whose error nothing was known of can't be those of the reads; empty if they can.
+/// Why poses with unknown error cannot belong to the reads; empty if they can.
 std::string why_other_poses(const PoseCheck& check, double lambda) {
-  // Of a drive with ten independent errors or so, chance explains as much once in a thousand.
+  // In a run with about ten independent errors, chance explains as much once in a thousand.
   constexpr double kExplained = 0.7;
   constexpr double kLeast = 0.02;  // [m]
   if (check.rms_m > 0.5 * lambda) {
@@ -109,7 +109,7 @@ LocalizationResult locate_jointly(const LocalizationProblem& problem, int thread
   if (!state.system.tags.empty()) {
     fit_unwrapped_jointly(state, threads);
     if (!problem.pose_error) learn_pose_error(state, threads);
-    find_better_places(state, threads);
+    find_better_positions(state, threads);
     fit_wrapped_jointly(state, threads);
     find_alternatives(state, threads);
   }
@@ -119,7 +119,7 @@ LocalizationResult locate_jointly(const LocalizationProblem& problem, int thread
     by_tag[state.system.tags[i].id] = estimate_of(state, covariance, i);
   }
   for (auto& [tag, estimate] : by_tag) {
-    // Reference tags keep their place, also those whose phases could not be followed.
+    // Reference tags keep their position, even if their phases could not be unwrapped.
     const auto known = problem.reference_tags.find(tag);
     result.estimates.push_back(known == problem.reference_tags.end()
                                    ? std::move(estimate)

@@ -20,7 +20,7 @@ Eigen::Vector3d padded(const Eigen::VectorXd& u, Index knot, int size) {
   return all;
 }
 
-/// Where a system stands.
+/// State of a system.
 struct SystemPoint {
   Eigen::VectorXd u;
   std::vector<TagFit> of_tag;
@@ -57,7 +57,7 @@ bool is_finite(const Move& move) {
                      [](const Eigen::VectorXd& of_tag) { return of_tag.allFinite(); });
 }
 
-/// Greatest change of a place [m].
+/// Largest change of a tag's position [m].
 double length_of(const JointSystem& system, const Move& move) {
   double most = 0.0;
   for (std::size_t j = 0; j < system.tags.size(); ++j) {
@@ -67,7 +67,7 @@ double length_of(const JointSystem& system, const Move& move) {
   return most;
 }
 
-/// `knots` and `own_knot` by `knot`.
+/// Sets `knots` and `own_knot` from `knot`.
 void number_own_knots(JointTag& tag) {
   std::vector<Index> touched;
   touched.reserve(2 * static_cast<std::size_t>(tag.knot.size()));
@@ -75,7 +75,7 @@ void number_own_knots(JointTag& tag) {
     if (tag.knot[i] >= 0) touched.insert(touched.end(), {tag.knot[i], tag.knot[i] + 1});
   }
   std::sort(touched.begin(), touched.end());
-  // Copied, so that it takes the memory of its few knots, not that of its reads.
+  // A copy only occupies the memory of its few knots, not that of its reads.
   tag.knots.assign(touched.begin(), std::unique(touched.begin(), touched.end()));
   tag.own_knot = Eigen::ArrayXi::Constant(tag.knot.size(), -1);
   for (Index i = 0; i < tag.knot.size(); ++i) {
@@ -145,7 +145,7 @@ double minimize(JointSystem& system, int rounds, int threads) {
   constexpr double kTolerance = 2e-6;  // [m]
   LevenbergMarquardt how{.damping = 1e-6, .least_raised = 1e-3};
   how.most_steps = rounds;
-  how.least_gain = 1e-4;  // A hundredth of a standard deviation is 1e-4 in the cost.
+  how.least_gain = 1e-4;  // 1e-4 in the cost is a hundredth of a standard deviation.
   double length = std::numeric_limits<double>::infinity();  // Of the last step.
   const auto step = [&](const SystemPoint& here, double damping) -> std::optional<SystemPoint> {
     if (length < kTolerance) return std::nullopt;

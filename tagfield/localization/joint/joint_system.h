@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The normal equations of all tags and the pose error together, and their solution. Tags are
-/// coupled through the pose error alone, and that from knot to knot: either the chain of knots is
-/// eliminated first, or the tags, whichever is less work.
+/// Normal equations of all tags and the pose error, and their solution. Tags are coupled only
+/// through the pose error, which is coupled from knot to knot: either the chain of knots or the
+/// tags are eliminated first, whichever is less work.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,10 +15,10 @@
 
 namespace tagfield {
 
-/// How a tag's values were straightened (multipath.h): what their bends change by about there, by
-/// read, is part of the predicted value.
+/// Linearization of the bends removed from a tag's values (multipath.h), per read: the change of a
+/// bend away from its reference point is part of the predicted value.
 struct BendSlopes {
-  Eigen::Vector3d p_WT = Eigen::Vector3d::Zero();  ///< Where the bends were taken [m],
+  Eigen::Vector3d p_WT = Eigen::Vector3d::Zero();  ///< Where the bends were computed [m],
   Eigen::Matrix2Xd moved;                          ///< with these displacements [m].
   Eigen::Matrix3Xd by_place, by_antenna;           ///< [m/m]
 };
@@ -28,27 +28,29 @@ struct JointTag {
   std::string id;
   TagPhases phases;
   HeightModel height;
-  bool fixed = false;   ///< Its place is known: a reference tag.
-  double weight = 1.0;  ///< Of its reads, 1 for those with the system's noise.
-  TagFit fit;           ///< Place and offsets, where the system is linearized.
-  // By read: the knot before it (−1 for an antenna without error), and how far towards the next.
+  bool fixed = false;   ///< Reference tag: its position is known.
+  double weight = 1.0;  ///< Of its reads; 1 if they have the system's noise.
+  TagFit fit;           ///< Position and offsets at the linearization point.
+  // Per read: the knot before it (−1 for an antenna without error), and the fraction towards the
+  // next.
   Eigen::ArrayXi knot;
-  Eigen::ArrayXi own_knot;  ///< Which of `knots` that is; the next one is there, too.
+  Eigen::ArrayXi own_knot;  ///< Its index in `knots`, followed there by the next knot.
   Eigen::ArrayXd knot_weight;
-  /// By read the antenna's place from its body's reference [m]; empty where all are references.
+  /// Per read, position of the antenna relative to its body's reference [m]; empty if all are
+  /// references.
   Eigen::Array2Xd levers;
   std::optional<BendSlopes> slopes;
-  std::vector<Eigen::Index> knots;  ///< That its reads touch, in order.
+  std::vector<Eigen::Index> knots;  ///< Knots that its reads depend on, in ascending order.
 };
 
 struct JointSystem {
   PoseKnots knots;
-  Eigen::VectorXd u;  ///< Pose error in units of its standard deviation; `knots.size` a knot.
+  Eigen::VectorXd u;  ///< Pose error in standard deviations; `knots.size` entries per knot.
   std::vector<JointTag> tags;
   double noise_rad = 0.1;  ///< Of a phase.
 };
 
-/// Place of the antenna of the tag's i-th read from its body's reference [m].
+/// Position of the antenna of the tag's i-th read relative to its body's reference [m].
 inline Eigen::Vector2d lever_of(const JointTag& tag, Eigen::Index i) {
   if (tag.levers.cols() == 0) return Eigen::Vector2d::Zero();
   return tag.levers.col(i);
@@ -57,36 +59,36 @@ inline Eigen::Vector2d lever_of(const JointTag& tag, Eigen::Index i) {
 /// Sets `knot`, `levers` and so on for the tag's phases.
 void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag& tag);
 
-/// How far the believed place of the antenna at the tag's i-th read is off, seen from above [m].
+/// Horizontal error of the antenna's believed position at the tag's i-th read [m].
 Eigen::Vector2d displacement_at(const JointSystem& system, const JointTag& tag, Eigen::Index i);
 
-/// Σ (residual/noise)² · weight of all reads plus uᵀ Λ u of the pose error. Sets each tag's
+/// Σ (residual/noise)² · weight over all reads plus uᵀ Λ u of the pose error. Sets each tag's
 /// fit.cost [rad²].
 double cost_of(JointSystem& system);
 
-/// Gauss and Newton's method with Levenberg's damping, from where the system stands. Returns the
-/// cost there. Threads share the tags.
+/// Minimizes the cost by Gauss-Newton with Levenberg's damping, starting from the current state.
+/// Returns the final cost. The tags are distributed over threads.
 double minimize(JointSystem& system, int rounds, int threads);
 
-/// What is known at the minimum.
+/// Covariance at the minimum.
 struct JointCovariance {
-  /// By tag, of its unknowns; rows of known heights and of fixed tags are 0.
+  /// Per tag, of its unknowns; rows of known heights and of fixed tags are 0.
   std::vector<Eigen::Matrix3d> of_tag;
-  /// Of all tags' unknowns, 3 rows a tag. Empty where the tags were eliminated first.
+  /// Of all tags' unknowns, 3 rows per tag. Empty if the tags were eliminated first.
   Eigen::MatrixXd of_all;
   double log_determinant = 0.0;  ///< Of the normal equations' matrix.
 };
 JointCovariance covariance_of(const JointSystem& system, int threads);
 
-/// ln |H| of the normal equations' matrix H alone, where the system stands.
+/// Only ln |H| of the normal equations' matrix H, at the current state.
 double log_determinant_of(const JointSystem& system, int threads);
 
-/// −2 ln of the data's density given the pose error's model, up to a constant: by this models are
-/// compared. `cost` is cost_of() at the minimum.
+/// −2 ln of the density of the data given the pose-error model, up to a constant, for model
+/// comparison. `cost` is cost_of() at the minimum.
 double evidence(const JointSystem& system, double cost, double log_determinant);
 
-/// Whether to eliminate the chain of knots first, and then to factorize the tags' own matrix, is
-/// less work than the other way round, which takes `work_by_tags` multiplications and additions.
+/// Whether eliminating the chain of knots first and then factorizing the tags' matrix is less work
+/// than the reverse, which takes `work_by_tags` multiply-adds.
 bool eliminates_knots_first(Eigen::Index knot_unknowns, Eigen::Index tag_unknowns,
                             double work_by_tags);
 

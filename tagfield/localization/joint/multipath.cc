@@ -14,12 +14,12 @@
 namespace tagfield {
 namespace {
 
-/// Places worse than this are no start [m].
+/// Positions with a larger expected error are no start [m].
 constexpr double kWorstStart = 0.5;
-/// Deviations of a start, within which its tag is looked for at first.
+/// Initial search radius around a start [standard deviations].
 constexpr double kNear = 2.5;
 
-/// Robust estimates, loosely limited: they are but starts.
+/// Robust estimates with loose limits, as they are only starts.
 std::vector<TagEstimate> robust_estimates(const LocalizationProblem& problem, int threads,
                                           Diagnostics& diagnostics) {
   LocalizationProblem loose = problem;
@@ -31,14 +31,14 @@ bool is_reference(const LocalizationProblem& problem, const std::string& tag) {
   return problem.reference_tags.count(tag) > 0;
 }
 
-/// What the world's error adds to a place's covariance [m²]: the image of an antenna in a surface
-/// moves twice as far as the surface, and a tag that reflections hold goes along.
+/// Contribution of the world's error to a position's covariance [m²]: the image of an antenna in a
+/// surface moves twice as far as the surface, and a tag located by reflections moves with it.
 Eigen::Matrix2d of_world(const LocalizationProblem& problem) {
   const double sigma_m = 2.0 * problem.world_sigma_m;
   return sigma_m * sigma_m * Eigen::Matrix2d::Identity();
 }
 
-/// Whether what the fit says is claimed, by tag.
+/// Per tag, whether the fit's position is reported.
 std::vector<bool> claimed_tags(const WorldFit& fit, const MultipathOptions& options, bool is_right,
                                const std::vector<double>& weights, int threads) {
   const std::vector<Fit> of_tags = fits_of(fit, options, threads);
@@ -50,8 +50,8 @@ std::vector<bool> claimed_tags(const WorldFit& fit, const MultipathOptions& opti
   return claimed;
 }
 
-/// What the joint fit says where it fits; else the robust estimates stay, by the limits that were
-/// asked for.
+/// Takes the joint fit's result where it fits; elsewhere, the robust estimates stay, judged by the
+/// requested limits.
 void take_estimates(const WorldFit& fit, const std::vector<std::size_t>& numbers,
                     const MultipathOptions& options, int threads, Diagnostics& diagnostics,
                     LocalizationResult& result) {
@@ -81,7 +81,7 @@ void take_estimates(const WorldFit& fit, const std::vector<std::size_t>& numbers
   }
 }
 
-/// The fit with each tag at its likeliest place by itself.
+/// Initial fit, with each tag at its individually likeliest position.
 WorldFit begin(const LocalizationProblem& problem, const std::vector<TagEstimate>& estimates,
                const std::vector<std::size_t>& numbers, const MultipathOptions& options,
                int threads) {
@@ -101,8 +101,8 @@ WorldFit begin(const LocalizationProblem& problem, const std::vector<TagEstimate
     placed[k] = {estimate.tag, &samples,
                  is_reference(problem, estimate.tag)
                      ? problem.reference_tags.at(estimate.tag)
-                     : likeliest_place({problem, sight, options.least_directness, noise_rad},
-                                       estimate, kNear)};
+                     : likeliest_position({problem, sight, options.least_directness, noise_rad},
+                                          estimate, kNear)};
     tell(problem, "tags in the known world",
          static_cast<double>(++done) / static_cast<double>(numbers.size()));
   });
@@ -131,7 +131,7 @@ LocalizationResult locate_through_world(const LocalizationProblem& problem, int 
   LocalizationResult result;
   result.method = "multipath";
   result.estimates = robust_estimates(problem, threads, diagnostics);
-  std::vector<std::size_t> numbers;  // Of estimates that are a start.
+  std::vector<std::size_t> numbers;  // Indices of estimates that serve as starts.
   for (std::size_t i = 0; i < result.estimates.size(); ++i) {
     if (!result.estimates[i].candidates.empty()) numbers.push_back(i);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// All tags and the pose error together, with a known world: what its reflections do to the phases
-/// is traced and taken out. docs/methods.md has the steps and the figures.
+/// Joint estimation of all tags and the pose error in a known world: the effect of its reflections
+/// on the phases is traced and removed. docs/methods.md has the steps and the figures.
 #pragma once
 
 #include "tagfield/localization/method.h"
@@ -9,12 +9,12 @@
 namespace tagfield {
 
 struct MultipathOptions {
-  double least_directness = 0.1;  ///< Of replies that are used (TracedReply); in (0, 1].
-  int rounds = 9;                 ///< Of tracing and fitting; at least 1.
+  double least_directness = 0.1;  ///< Minimum share of the direct path in used replies; in (0, 1].
+  int rounds = 9;                 ///< Rounds of tracing and fitting; at least 1.
 };
 
-/// "multipath": where no world is known (LocalizationProblem::trace), no tag is located. Throws
-/// Error on options out of their range.
+/// Method "multipath". Without a known world (LocalizationProblem::trace), no tag is located.
+/// Throws Error on options out of range.
 Method multipath_method(const MultipathOptions& options = {});
 
 }  // namespace tagfield

@@ -24,7 +24,7 @@ double extent_of_track(const Trajectory& track) {
   return track.empty() ? 0.0 : box.sizes().norm();
 }
 
-/// Whether B keeps its pose in A at a dozen times that both know.
+/// Whether the pose of B in A is constant over a dozen times that both tracks cover.
 bool is_rigid(const Trajectory& a, const Trajectory& b) {
   constexpr std::size_t kLooks = 12;
   std::optional<RigidTransform> first;
@@ -44,7 +44,7 @@ bool is_rigid(const Trajectory& a, const Trajectory& b) {
   return looks >= 2;
 }
 
-/// Periods in which antennas of the body read anything.
+/// Periods in which antennas of the body read tags.
 std::vector<Period> reading_periods(const LocalizationProblem& problem, const Body& body,
                                     double longest_pause_s) {
   std::vector<double> times_s;
@@ -61,7 +61,7 @@ Eigen::Matrix3d model_scale(const PoseErrorModel& model) {
   return Eigen::Vector3d(model.sigma_m, model.sigma_m, model.yaw_sigma_rad).asDiagonal();
 }
 
-/// Lower triangular root of a covariance, made positive definite where rounding spoilt that.
+/// Lower triangular root of a covariance, made positive definite if rounding destroyed that.
 Eigen::Matrix3d root(Eigen::Matrix3d covariance) {
   covariance = 0.5 * (covariance + covariance.transpose().eval());
   covariance.diagonal().array() += 1e-12;
@@ -70,8 +70,8 @@ Eigen::Matrix3d root(Eigen::Matrix3d covariance) {
   return *factor;
 }
 
-/// Root of the covariance told nearest to a time.
-Eigen::Matrix3d told_scale(const BelievedTrack& track, double time_s) {
+/// Root of the track's covariance at the first pose not before the given time, or the last.
+Eigen::Matrix3d stated_scale(const BelievedTrack& track, double time_s) {
   const auto after = std::lower_bound(
       track.X_WA.begin(), track.X_WA.end(), time_s,
       [](const StampedPose& pose, double t) { return to_seconds(pose.stamp) < t; });
@@ -101,7 +101,7 @@ void add_chain(const LocalizationProblem& problem, const Body& body, const PoseE
     const PoseKnots::Piece piece = piece_over(period, spacing_s, knots.count());
     for (Eigen::Index k = 0; k < piece.count; ++k) {
       const double time_s = piece.begin_s + static_cast<double>(k) * piece.spacing_s;
-      knots.scale.push_back(model != nullptr ? model_scale(*model) : told_scale(track, time_s));
+      knots.scale.push_back(model != nullptr ? model_scale(*model) : stated_scale(track, time_s));
     }
     chain.pieces.push_back(piece);
   }
@@ -110,9 +110,9 @@ void add_chain(const LocalizationProblem& problem, const Body& body, const PoseE
   knots.chains.push_back(std::move(chain));
 }
 
-/// In a pause: what the errors at its ends tell of the error between them, which is forgotten with
-/// time from both: sinh((T − t)/τ)/sinh(T/τ) of the first and sinh(t/τ)/sinh(T/τ) of the second,
-/// with exponents that do not overflow.
+/// Interpolation in a pause: the mean of the error given its values at both ends, sinh((T −
+/// t)/τ)/sinh(T/τ) of the first plus sinh(t/τ)/sinh(T/τ) of the second, written so that exponents
+/// do not overflow.
 KnotPlace place_in_pause(Eigen::Index before, double since_s, double pause_s, double tau_s) {
   const double until_s = pause_s - since_s;
   const double whole = -std::expm1(-2.0 * pause_s / tau_s);
@@ -120,7 +120,7 @@ KnotPlace place_in_pause(Eigen::Index before, double since_s, double pause_s, do
           std::exp(-until_s / tau_s) * -std::expm1(-2.0 * since_s / tau_s) / whole};
 }
 
-/// The believed place less the error there.
+/// The believed position minus the error there.
 Eigen::Vector3d corrected_place(const LocalizationProblem& problem, const PoseKnots::Chain& chain,
                                 const Eigen::Vector3d& error, const Eigen::Vector3d& p_WA,
                                 Time stamp) {

@@ -9,11 +9,11 @@
 namespace tagfield {
 namespace {
 
-/// Baselines whose sine of the angle between them is under this count as parallel.
+/// Baselines are parallel if the sine of the angle between them is below this.
 constexpr double kParallelSine = 0.02;
 /// A discriminant this far below 0, relative to its terms, comes from noise at a double root.
 constexpr double kDiscriminantSlack = 0.02;
-constexpr double kTraceReach = 15.0;  // How far a curve is traced to either side [m].
+constexpr double kTraceReach = 15.0;  // Distance to which a curve is traced on either side [m].
 constexpr int kTraceSteps = 64;
 
 struct Roots {
@@ -21,7 +21,7 @@ struct Roots {
   int count = 0;
 };
 
-/// Real roots of a t² + 2 b t + c = 0, in the form that loses no digits where b² >> a c.
+/// Real roots of a t² + 2 b t + c = 0, in the form that avoids cancellation if b² >> a c.
 Roots solve_quadratic(double a, double b, double c) {
   const double discriminant = b * b - a * c;
   if (discriminant < -kDiscriminantSlack * (b * b + std::abs(a * c))) return {};
@@ -55,7 +55,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// With r > 0 the squared equation says |x − f|² = (r + δ)², and the branch is right if r + δ ≥ 0.
+/// With r > 0, the squared equation is |x − f|² = (r + δ)², and the branch is correct if r + δ ≥ 0.
 bool right_branch(const PlaneConic& a, const PlaneConic& b, double r) {
   return r > 0.0 && r + a.delta >= 0.0 && r + b.delta >= 0.0;
 }
@@ -74,8 +74,8 @@ void intersect_crossing(const PlaneConic& a, const PlaneConic& b, double z,
   }
 }
 
-/// Along one line the two equations give r and the place along the line; what is left of r² is the
-/// distance from the line, to either side.
+/// For parallel baselines, the two equations give r and the coordinate along their common line; the
+/// rest of r² is the squared distance from the line, to either side.
 void intersect_parallel(const PlaneConic& a, const PlaneConic& b, double z,
                         std::vector<Eigen::Vector2d>& relative) {
   const PlaneConic& longer = a.direction.norm() > b.direction.norm() ? a : b;
@@ -104,7 +104,7 @@ Eigen::Vector2d misfit_gradient(const Conic& conic, const Eigen::Vector3d& p) {
   return gradient(conic.focus + conic.baseline, p) - gradient(conic.focus, p);
 }
 
-/// Newton's method from near a crossing; false where it doesn't converge nearby.
+/// Newton's method, starting near a crossing; false if it does not converge nearby.
 bool polish(const Conic& a, const Conic& b, Eigen::Vector3d& p) {
   constexpr double kTolerance = 1e-9;
   for (int round = 0; round < 12; ++round) {
@@ -121,18 +121,19 @@ bool polish(const Conic& a, const Conic& b, Eigen::Vector3d& p) {
   return false;
 }
 
-/// The frame of a traced curve: the baseline's middle and its direction seen from above.
+/// Frame of a traced curve: the baseline's middle and its horizontal direction.
 struct TraceFrame {
   Eigen::Vector2d origin;
   Eigen::Vector2d along;
   double rise;    ///< Sine of the baseline's angle to the plane.
   double level;   ///< Its cosine.
-  double z;       ///< Plane above the middle [m].
+  double z;       ///< Height of the plane above the middle [m].
   double a2, c2;  ///< Squares of half Δr and half the baseline.
 };
 
-/// Points `w` to the side of the baseline. With α the coordinate along the (sloping) axis, a
-/// hyperboloid of revolution is c² α² = a² (b² + t² + w² + z²), b² = c² − a², α = level t + rise z.
+/// Adds the points `w` to the side of the baseline. With α the coordinate along the (sloping) axis,
+/// a hyperboloid of revolution is c² α² = a² (b² + t² + w² + z²), b² = c² − a², α = level t + rise
+/// z.
 void trace_at(const TraceFrame& frame, double delta, double w, TracedConic& traced) {
   const double cc = frame.c2 * frame.level;
   const double aa = frame.a2 * (frame.c2 - frame.a2 + w * w + frame.z * frame.z);

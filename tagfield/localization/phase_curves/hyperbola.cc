@@ -14,7 +14,7 @@
 namespace tagfield {
 namespace {
 
-/// The keys of its options.
+/// Keys of the options.
 const OptionTable<HyperbolaOptions>& hyperbola_options() {
   using O = HyperbolaOptions;
   static const OptionTable<O> of{
@@ -28,8 +28,8 @@ const OptionTable<HyperbolaOptions>& hyperbola_options() {
   return of;
 }
 
-/// Of the minima those that can't be told from the first.
-std::vector<Eigen::Vector2d> indistinct(const PlaceSearch& search) {
+/// Minima that cannot be distinguished from the first.
+std::vector<Eigen::Vector2d> indistinct(const PositionSearch& search) {
   const std::vector<Eigen::Vector2d>& minima = search.minima;
   const auto residuals_at = [&](const Eigen::Vector2d& p) {
     return residuals(search.phases, search.height, p);
@@ -42,8 +42,8 @@ std::vector<Eigen::Vector2d> indistinct(const PlaceSearch& search) {
   return kept;
 }
 
-/// The best intersection around each minimum, for those who want the method without its last step.
-std::vector<Eigen::Vector2d> unrefined(const PlaceSearch& search,
+/// The best intersection around each minimum, for the method without its last step.
+std::vector<Eigen::Vector2d> unrefined(const PositionSearch& search,
                                        const std::vector<Eigen::Vector2d>& minima) {
   std::vector<Eigen::Vector2d> places;
   const std::vector<Guess> guesses =
@@ -68,8 +68,8 @@ Candidate candidate_at(const TagPhases& phases, const Eigen::Vector2d& p, double
   return make_candidate(phases, known, fit);
 }
 
-/// The plane was a guess: the place may be off by as much as it moves where the height is
-/// estimated, and by what that estimate may be off.
+/// Accounts for a guessed plane: the position may be off by as much as it moves if the height is
+/// estimated, plus the uncertainty of that estimate.
 void span_height(const TagPhases& phases, HeightSide side, Candidate& candidate) {
   const HeightModel height = estimated_height(side, phases);
   const TagFit fit = fit_tag(phases, height, to_unknowns(height, candidate.p_WT));
@@ -90,17 +90,17 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
   check_options(hyperbola_options(), options);
   if (!std::isfinite(tag_height)) throw Error("the tag's height must be finite");
   TagEstimate estimate = begun(tag, samples);
-  const std::string hopeless = why_hopeless(samples);
+  const std::string hopeless = why_not_locatable(samples);
   if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
   const std::string noisy = why_too_noisy(samples, kSlipsWithoutOne);
   if (!noisy.empty()) return not_located(std::move(estimate), noisy);
-  PlaceSearch search = begin_search(samples, tag_height, [&](const std::vector<PhaseSample>& of) {
-    return unwrap(of, options.max_step);
-  });
+  PositionSearch search = begin_search(
+      samples, tag_height,
+      [&](const std::vector<PhaseSample>& of) { return unwrap(of, options.max_step); });
   estimate.reads = static_cast<std::size_t>(search.phases.size());
   const std::string too_few = why_too_few(search);
   if (!too_few.empty()) return not_located(std::move(estimate), too_few);
-  search_places(search, options.stride_m, options.max_hyperbolae);
+  search_positions(search, options.stride_m, options.max_hyperbolae);
   if (search.minima.empty()) return not_located(std::move(estimate), "no two hyperbolae meet");
   std::vector<Eigen::Vector2d> places = indistinct(search);
   if (!options.refine) places = unrefined(search, places);

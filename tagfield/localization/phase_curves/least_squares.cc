@@ -16,7 +16,7 @@ namespace {
 /// Hyperbolae to start from: fewer than the paper's method needs, as the fit does the rest.
 constexpr double kStride = 0.5;  // [m]
 constexpr std::size_t kMostHyperbolae = 20;
-/// A tag of unknown height is sought in a plane so far from the antennas' [m].
+/// Distance from the antennas' plane to the one in which a tag of unknown height is searched [m].
 constexpr double kLikelyOffset = 0.4;
 
 double search_height(const LocalizationProblem& problem, const std::string& tag) {
@@ -32,9 +32,9 @@ std::vector<std::string> antennas_of(const TagPhases& phases) {
   return {names.begin(), names.end()};
 }
 
-/// Where hyperbolae meet nowhere, as of short straight stretches: the brightest places, followed
-/// phases taken for wrapped ones.
-std::vector<Eigen::Vector2d> by_waves(const PlaceSearch& search, double height) {
+/// Fallback if no hyperbolae intersect, as for short straight sections: the brightest positions,
+/// treating unwrapped phases as wrapped.
+std::vector<Eigen::Vector2d> by_waves(const PositionSearch& search, double height) {
   std::vector<Eigen::Vector2d> places =
       search_plane(search.phases, height, SearchOptions{}, coherent_light());
   for (Eigen::Vector2d& place : places) place = refine(search.phases, height, place);
@@ -59,27 +59,27 @@ TagEstimate locate(const LocalizationProblem& problem, const std::string& tag,
 UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string& tag,
                            const SamplesOfTag& samples) {
   UnwrappedFit result;
-  result.why_not = why_hopeless(samples);
+  result.why_not = why_not_locatable(samples);
   if (!result.why_not.empty()) return result;
   const double height = search_height(problem, tag);
-  PlaceSearch search = begin_search(samples, height, [](const std::vector<PhaseSample>& of) {
+  PositionSearch search = begin_search(samples, height, [](const std::vector<PhaseSample>& of) {
     return follow(of, phase_noise(of));
   });
   result.reads_followed = static_cast<std::size_t>(search.phases.size());
-  result.stretches = search.segments.size();
+  result.segments = search.segments.size();
   result.why_not = why_too_few(search);
   if (!result.why_not.empty()) return result;
-  search_places(search, kStride, kMostHyperbolae);
+  search_positions(search, kStride, kMostHyperbolae);
   if (search.minima.empty()) search.minima = by_waves(search, height);
   if (search.minima.empty()) {
     result.why_not = "no position explains the phase";
     return result;
   }
   result.phases = std::move(search.phases);
-  result.phases.pose_error = told_pose_error(problem);
+  result.phases.pose_error = stated_pose_error(problem);
   result.height = height_model(problem, tag, result.phases);
   for (const Eigen::Vector2d& place : search.minima) {
-    const PlaceVector start = to_unknowns(result.height, {place.x(), place.y(), height});
+    const PositionVector start = to_unknowns(result.height, {place.x(), place.y(), height});
     result.fits.push_back(fit_tag(result.phases, result.height, start));
   }
   std::stable_sort(result.fits.begin(), result.fits.end(),

@@ -10,8 +10,8 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostMinima = 4;  ///< Of the unwrapped fit, to go on from.
-/// Minima that cost so many times more than the best are not gone on from.
+constexpr std::size_t kMostMinima = 4;  ///< Minima of the unwrapped fit used as starts.
+/// Minima that cost this many times more than the best are not used.
 constexpr double kHopeless = 30.0;
 
 TagPhases without_known_offsets(TagPhases phases) {
@@ -19,9 +19,9 @@ TagPhases without_known_offsets(TagPhases phases) {
   return phases;
 }
 
-/// Whether the antenna's places are so uncertain that whole cycles can't be told between stretches:
-/// a deviation of over λ/24 turns the phase by half a radian, and four of those by a third of a
-/// turn.
+/// Whether the antenna positions are too uncertain to resolve whole cycles between sections: a
+/// standard deviation of over λ/24 turns the phase by half a radian, and four of those by a third
+/// of a turn.
 bool loses_cycles(const TagPhases& phases) {
   constexpr double kMost = 1.0 / 12.0;  // Of λ/2.
   return phases.pose_error && phases.pose_error->sigma_m > kMost * longest_cycle(phases);
@@ -32,7 +32,7 @@ TagFit best_around(const TagPhases& phases, const HeightModel& height, const Tag
                    const Eigen::Matrix3d& covariance) {
   TagFit best;
   bool is_first = true;
-  for (const PlaceVector& start : spread_starts(phases, height, fit, covariance)) {
+  for (const PositionVector& start : spread_starts(phases, height, fit, covariance)) {
     TagFit found = fit_tag(phases, height, start);
     if (is_first || found.cost < best.cost) best = std::move(found);
     is_first = false;
@@ -40,8 +40,8 @@ TagFit best_around(const TagPhases& phases, const HeightModel& height, const Tag
   return best;
 }
 
-/// Fits of the wrapped phases near those of the unwrapped ones: first with free offsets, then,
-/// where there are such, with the known ones.
+/// Fits of the wrapped phases near those of the unwrapped ones: first with free offsets, then with
+/// the known ones, if any.
 std::vector<TagFit> wrapped_fits(const UnwrappedFit& unwrapped, const TagPhases& phases) {
   const TagPhases free = without_known_offsets(phases);
   const bool any_known = std::any_of(phases.spans.begin(), phases.spans.end(),

@@ -9,29 +9,31 @@
 namespace tagfield {
 namespace {
 
-/// Uncertainty of the expected phase [rad] beyond which whole turns are not sure.
+/// Uncertainty of the expected phase [rad] above which whole turns are unreliable.
 constexpr double kUnsure = kTwoPi / 6.5;
-/// How fast the direction to the tag changes with the antenna's way. A tag 1.7 m beside it turns by
-/// 0.6 rad over a metre; the rest is for nearer ones, which turn for long to the same side.
+/// Rate at which the direction to the tag changes along the antenna's path. For a tag 1.7 m beside
+/// the path, it turns by 0.6 rad over a metre; the second term is for nearer tags, whose direction
+/// keeps turning to the same side.
 constexpr double kTurning = 0.6;       // [1/m]
 constexpr double kMoreTurning = 0.05;  // Variance [1/m].
 constexpr double kLeastNoise = 0.02;   // [rad]
 
-/// The direction to the tag and how far the last phase is off, with their covariance. The last
-/// phase' own error is a part of the state as the next difference contains it.
+/// Direction to the tag and error of the last phase, with their covariance. The error of the last
+/// phase is part of the state because the next difference contains it.
 struct Follower {
-  Eigen::Vector4d state = Eigen::Vector4d::Zero();  ///< u, then the error of the followed phase.
+  Eigen::Vector4d state = Eigen::Vector4d::Zero();  ///< u, then the error of the last phase.
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
 };
 
 Follower start(double noise_rad) {
   Follower follower;
-  // Any direction is as likely: a unit vector has variance 1/3 in each axis; in the plane 1/2.
+  // All directions are equally likely: a unit vector has variance 1/3 along each axis, 1/2 in the
+  // plane.
   follower.covariance.diagonal() << 0.5, 0.5, 0.5, noise_rad * noise_rad;
   return follower;
 }
 
-/// Change of the phase that is expected over `step` [m], given the last measured phase.
+/// Expected phase change over `step` [m], given the last measured phase.
 struct Expected {
   double change = 0.0;
   double variance = 0.0;
@@ -51,7 +53,8 @@ Expected expect(Follower& follower, const Eigen::Vector3d& step, double wavenumb
   return expected;
 }
 
-/// Learns from the measured change; afterwards the state's last entry is the new phase's error.
+/// Updates with the measured change; afterwards, the state's last entry is the error of the new
+/// phase.
 void learn(Follower& follower, const Expected& expected, double innovation, double noise_rad) {
   // The new phase = expected + innovation, its error e' is the noise, which the innovation
   // contains: cov(innovation, e') = σ².

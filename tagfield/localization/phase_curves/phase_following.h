@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Phase histories without their jumps of 2π, followed by what the antenna's motion lets expect.
+/// Phase unwrapping aided by the phase change expected from the antenna's motion.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,12 @@
 
 namespace tagfield {
 
-/// Follows the phase from sample to sample, as unwrap() does, but against the change that is
-/// expected: a tag in the direction u from the antenna changes its distance by −u·Δa over the
-/// antenna's step Δa, and u changes slowly. A Kalman filter has u as its state, and its own
-/// uncertainty says whether the whole turns are sure: where the expected change is uncertain by
-/// more than a third of a turn (one standard deviation), or the carrier changes, a new segment
-/// starts. So noisier phases are followed, and over longer steps than λ/4 once the direction is
-/// known. `noise_rad`: standard deviation of the phase noise.
+/// Unwraps the phase from sample to sample, like unwrap(), but relative to the expected change: the
+/// distance of a tag in the direction u from the antenna changes by −u·Δa over the antenna's step
+/// Δa, and u changes slowly. u is the state of a Kalman filter, whose uncertainty decides whether
+/// whole turns are reliable: a new segment starts if the standard deviation of the expected change
+/// exceeds about 0.15 turns, or if the carrier changes. This unwraps noisier phases, and over steps
+/// longer than λ/4 once the direction is known. `noise_rad`: standard deviation of the phase noise.
 std::vector<PhaseSegment> follow(const std::vector<PhaseSample>& samples, double noise_rad);
 
 }  // namespace tagfield

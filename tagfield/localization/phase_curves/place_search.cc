@@ -11,10 +11,10 @@
 namespace tagfield {
 namespace {
 
-constexpr Eigen::Index kThinReads = 120;  ///< Reads by which intersections are ranked.
-constexpr std::size_t kStarts = 12;       ///< Intersections to start a fit from.
-constexpr double kApart = 0.1;            ///< Starts nearer than this are one [m].
-constexpr double kSame = 0.03;            ///< Minima nearer than this are one [m].
+constexpr Eigen::Index kThinReads = 120;  ///< Reads used to rank intersections.
+constexpr std::size_t kStarts = 12;       ///< Intersections from which a fit starts.
+constexpr double kApart = 0.1;            ///< Starts closer than this are the same [m].
+constexpr double kSame = 0.03;            ///< Minima closer than this are the same [m].
 constexpr int kSlipRounds = 3;
 
 std::vector<Eigen::Vector2d> refined(const TagPhases& phases, double height,
@@ -25,7 +25,7 @@ std::vector<Eigen::Vector2d> refined(const TagPhases& phases, double height,
   return minima;
 }
 
-/// The best place so far and its mirror image, with the other starts.
+/// The positions, followed by the mirror images of the best three.
 std::vector<Eigen::Vector2d> with_mirror_images(const TagPhases& phases,
                                                 std::vector<Eigen::Vector2d> places) {
   const std::size_t count = std::min<std::size_t>(places.size(), 3);
@@ -33,9 +33,9 @@ std::vector<Eigen::Vector2d> with_mirror_images(const TagPhases& phases,
   return places;
 }
 
-/// Distinct local minima of E over all reads, best first: from the intersections on a part of the
-/// reads, then on all. Corrects the cycle slips that the best one shows.
-std::vector<Eigen::Vector2d> find_minima(PlaceSearch& search) {
+/// Distinct local minima of E over all reads, best first: refined from the intersections with a
+/// part of the reads, then with all. Corrects the cycle slips that the best one reveals.
+std::vector<Eigen::Vector2d> find_minima(PositionSearch& search) {
   const double height = search.height;
   TagPhases& phases = search.phases;
   std::vector<Eigen::Vector2d> places =
@@ -52,8 +52,8 @@ std::vector<Eigen::Vector2d> find_minima(PlaceSearch& search) {
   return ranked();
 }
 
-/// Channel after channel, each in order of time: a reader that comes back to a channel goes on
-/// there, however many others it was on in between.
+/// Samples sorted by channel, each channel in time order: the phase continues when the reader
+/// returns to a channel, however many others it used in between.
 std::vector<PhaseSample> by_channel(std::vector<PhaseSample> series) {
   std::stable_sort(series.begin(), series.end(), [](const PhaseSample& a, const PhaseSample& b) {
     return a.frequency_hz < b.frequency_hz;
@@ -63,8 +63,8 @@ std::vector<PhaseSample> by_channel(std::vector<PhaseSample> series) {
 
 }  // namespace
 
-PlaceSearch begin_search(const SamplesOfTag& samples, double height, const Follow& follow) {
-  PlaceSearch search;
+PositionSearch begin_search(const SamplesOfTag& samples, double height, const Follow& follow) {
+  PositionSearch search;
   search.height = height;
   std::vector<std::string> antennas;
   for (const auto& [antenna, series] : samples) {
@@ -79,12 +79,12 @@ PlaceSearch begin_search(const SamplesOfTag& samples, double height, const Follo
   return search;
 }
 
-std::string why_too_few(const PlaceSearch& search) {
+std::string why_too_few(const PositionSearch& search) {
   const auto reads = static_cast<std::size_t>(search.phases.size());
   if (reads < kFewestReads) {
     return "the antenna moved too far between reads for the phase to be followed";
   }
-  // Unknown are the place and an offset for each segment.
+  // The unknowns are the position and an offset for each segment.
   if (reads < search.segments.size() + 2 + kFewestSpare) {
     return fmt::format("too few reads: the phase could be followed over {} in {} segments", reads,
                        search.segments.size());
@@ -101,7 +101,7 @@ std::string why_too_noisy(const SamplesOfTag& samples, double most) {
       largest_phase_noise(samples, 0.0), count_reads(samples), slips, most);
 }
 
-void search_places(PlaceSearch& search, double stride, std::size_t max_hyperbolae) {
+void search_positions(PositionSearch& search, double stride, std::size_t max_hyperbolae) {
   const auto conics = make_conics(search.segments, stride, max_hyperbolae);
   search.ranked =
       rank(thinned(search.phases, kThinReads), search.height, intersect_all(conics, search.height));

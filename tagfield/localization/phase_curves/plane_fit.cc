@@ -11,7 +11,7 @@
 namespace tagfield {
 namespace {
 
-/// Spans by falling length, as far as two reads of each fit into `reads`, in their old order.
+/// The longest spans, as many as `reads` allows with two reads each, in their original order.
 std::vector<TagPhases::Span> longest_spans(const TagPhases& phases, Eigen::Index reads) {
   std::vector<TagPhases::Span> spans = phases.spans;
   const auto keep = static_cast<std::size_t>(std::max<Eigen::Index>(1, reads / 2));
@@ -38,7 +38,7 @@ Eigen::ArrayXd distances(const TagPhases& phases, const TagPhases::Span& span, d
       .sqrt();
 }
 
-/// A place with the normal matrix, the gradient and the sum of squares there.
+/// A position with its normal matrix, gradient and sum of squares.
 struct PlanePoint {
   Eigen::Vector2d p;
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
@@ -51,7 +51,7 @@ void add_span(const TagPhases& phases, const TagPhases::Span& span, double heigh
   const Eigen::Vector2d& p = point.p;
   const Eigen::ArrayXd range = distances(phases, span, height, p).max(1e-9);
   Eigen::ArrayXd error = phases.value.segment(span.begin, span.count) - range;
-  // Gradient of the range; the offset is eliminated by taking means out.
+  // Gradient of the range; subtracting means eliminates the offset.
   Eigen::ArrayXd ux = (p.x() - phases.x.segment(span.begin, span.count)) / range;
   Eigen::ArrayXd uy = (p.y() - phases.y.segment(span.begin, span.count)) / range;
   for (Eigen::ArrayXd* column : {&error, &ux, &uy}) *column -= column->mean();

@@ -7,10 +7,10 @@
 namespace tagfield {
 namespace {
 
-/// A tag further than this from where an antenna was isn't looked for [m]; passive tags are read
-/// within some 15 m.
+/// Maximum distance of a guess from the antenna's path [m]; passive tags are read within about 15
+/// m.
 constexpr double kFarthest = 40.0;
-/// Enough curves for some pairs that cross well.
+/// Enough curves for some well-conditioned intersections.
 constexpr std::size_t kFewConics = 8;
 constexpr double kShortestStride = 0.04;  // [m]
 
@@ -43,8 +43,8 @@ std::size_t count_of(const std::vector<ConicGroup>& groups) {
   return count;
 }
 
-/// Keeps `max_conics` of all, evenly spread, which is a wider stride for long segments and doesn't
-/// lose the short ones.
+/// Keeps `max_conics` of all, evenly spread: long segments get a wider stride, and short ones are
+/// not lost.
 void thin_out(std::vector<ConicGroup>& groups, std::size_t max_conics) {
   const std::size_t all = count_of(groups);
   if (all <= max_conics) return;
@@ -107,7 +107,7 @@ std::vector<Guess> rank(const TagPhases& phases, double height,
   std::vector<Guess> ranked;
   ranked.reserve(points.size());
   for (const Eigen::Vector2d& p : points) {
-    // Written so that a NaN fails it.
+    // Written so that a NaN fails the test.
     if (!((p - middle).norm() < kFarthest + spread)) continue;
     ranked.push_back({p, sum_of_squares(phases, height, p)});
   }

@@ -10,10 +10,10 @@
 namespace tagfield {
 namespace {
 
-/// Noise of a phase difference is √2 σ; so many of it are kept free below π. Rare slips beyond
-/// are put right by the fit (plane_fit.h).
+/// Margin kept below π, in standard deviations √2 σ of a phase difference. The fit corrects the
+/// rare remaining slips (plane_fit.h).
 constexpr double kNoiseMargin = 2.5;
-/// However noisy, phases this part of a quarter wavelength apart are followed.
+/// Fraction of a quarter wavelength over which phases are always unwrapped, however noisy.
 constexpr double kMinStep = 0.5;
 
 double travel_between(const PhaseSample& from, const PhaseSample& to) {

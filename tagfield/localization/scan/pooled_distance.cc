@@ -10,7 +10,8 @@ constexpr double kLeastSpread = 0.02;
 constexpr Eigen::Index kSpreads = 12;
 constexpr double kTiny = 1e-300;
 
-/// Of the logarithm of the distance at each middle (columns) with this spread; columns of sum 1.
+/// Distribution of the logarithm of the distance for each centre (column) with this spread; columns
+/// sum to 1.
 Eigen::MatrixXd about_middles(const Eigen::ArrayXd& logarithms, double spread) {
   const Eigen::Index count = logarithms.size();
   Eigen::MatrixXd about(count, count);
@@ -36,7 +37,7 @@ std::vector<Eigen::ArrayXd> expected_distances(const Eigen::ArrayXd& away_m,
   const Eigen::ArrayXd spreads =
       Eigen::ArrayXd::LinSpaced(kSpreads, std::log(kLeastSpread), 0.0).exp();
   std::vector<Eigen::MatrixXd> abouts;
-  std::vector<Eigen::ArrayXXd> evidences;  // By spread: of each tag (column) at each middle.
+  std::vector<Eigen::ArrayXXd> evidences;  // By spread: of each tag (column) for each centre.
   Eigen::ArrayXXd all(away_m.size(), kSpreads);
   for (Eigen::Index s = 0; s < kSpreads; ++s) {
     abouts.push_back(about_middles(logarithms, spreads[s]));
@@ -47,7 +48,7 @@ std::vector<Eigen::ArrayXd> expected_distances(const Eigen::ArrayXd& away_m,
   std::vector<Eigen::ArrayXd> expected(likelihoods.size(), Eigen::ArrayXd::Zero(away_m.size()));
   for (Eigen::Index i = 0; i < tags; ++i) {
     for (Eigen::Index s = 0; s < kSpreads; ++s) {
-      // What this tag itself says of middle and spread is taken out.
+      // Removes this tag's own evidence on centre and spread.
       const Eigen::ArrayXd of_others =
           weights.col(s) / evidences[static_cast<std::size_t>(s)].col(i);
       expected[static_cast<std::size_t>(i)] +=

@@ -15,7 +15,7 @@
 namespace tagfield {
 namespace {
 
-/// A tag under way.
+/// Intermediate results of one tag.
 struct ScannedTag {
   std::string tag;
   const SamplesOfTag* samples = nullptr;
@@ -26,9 +26,9 @@ struct ScannedTag {
   std::string why_not;
 };
 
-/// Probability that a field of as many independent samples of noise is explained as well by one of
-/// the places by chance: of one place (1 − share)^(n − 1), and there are at most as many different
-/// ones as pairs of samples.
+/// Probability that some position explains a field of pure noise as well by chance: (1 − share)^(n
+/// − 1) for one position and n independent samples, times at most n² distinct positions, as many as
+/// pairs of samples.
 double chance(const ScanField& scan, double share) {
   const auto n = static_cast<double>(scan.along_m.size());
   return n * n * std::pow(1.0 - share, n - 1.0);
@@ -57,14 +57,14 @@ void look_at(const LocalizationProblem& problem, const ScanOptions& options, Sca
       100.0 * tag.likelihood.two_paths, 100.0 * options.min_share);
 }
 
-/// Whether a tag may be at the grid's place (i, j) on that side (1 left, −1 right).
+/// Whether a tag may be at the grid's position (i, j) on this side (1 left, −1 right).
 bool is_possible(const LocalizationProblem& problem, const ScannedTag& tag, Eigen::Index i,
                  Eigen::Index j, double side) {
   const Eigen::Vector2d place = place_of(tag, tag.grid.along_m[i], side * tag.grid.away_m[j]);
   return is_within(problem.area, tag.scan.line.middle, tag.scan.line.along, place);
 }
 
-/// Leaves out where no tag can be, on either side.
+/// Clears positions where no tag can be on either side.
 void keep_possible(const LocalizationProblem& problem, ScannedTag& tag) {
   if (!problem.area.box) return;
   Eigen::ArrayXXd& p = tag.likelihood.relative;
@@ -89,7 +89,7 @@ Eigen::ArrayXXd on_side(const LocalizationProblem& problem, const ScannedTag& ta
   return p;
 }
 
-/// Where half of the probability lies on either side.
+/// Median of a distribution over `at`, interpolated.
 double median_of(const Eigen::ArrayXd& at, const Eigen::ArrayXd& probability) {
   const double half = 0.5 * probability.sum();
   double sum = 0.0;
@@ -106,8 +106,8 @@ double median_of(const Eigen::ArrayXd& at, const Eigen::ArrayXd& probability) {
   return at[at.size() - 1];
 }
 
-/// Of one side: the medians along and away, and the scatter about them, with which the cells' own
-/// size is added up.
+/// Candidate on one side: the medians along and away, and the scatter around them plus the variance
+/// within a cell.
 Candidate candidate_of(const ScannedTag& tag, const Eigen::ArrayXXd& p, double side) {
   const double along = median_of(tag.grid.along_m, p.rowwise().sum());
   const double away = median_of(tag.grid.away_m, p.colwise().sum().transpose());
@@ -132,7 +132,7 @@ Candidate candidate_of(const ScannedTag& tag, const Eigen::ArrayXXd& p, double s
   return candidate;
 }
 
-/// Phase that one path leaves, taken for noise of both quadratures alike [m].
+/// Phase residual of the single-path fit, assuming equal noise in both quadratures [m].
 double misfit_of(const ScannedTag& tag) {
   const double noise = std::sqrt(std::max(1.0 - tag.one_path, 0.0));
   return noise / tag.scan.wavenumber;
@@ -156,7 +156,7 @@ void judge(const ScanOptions& options, TagEstimate& estimate) {
 
 TagEstimate estimate_of(const LocalizationProblem& problem, const ScannedTag& tag,
                         const Eigen::ArrayXd& expected, const ScanOptions& options) {
-  // At the reach's end tags stand for all those that are further away.
+  // The furthest positions represent all those further away.
   constexpr double kMostAtEnd = 0.05;
   constexpr Eigen::Index kEnd = 3;
   TagEstimate estimate = begun(tag.tag, *tag.samples);
@@ -194,7 +194,7 @@ std::vector<ScannedTag> look_at_all(const LocalizationProblem& problem, int thre
   return tags;
 }
 
-/// What is expected of each tag's distance by those of the others that were looked at alike.
+/// Prior of each tag's distance from the other tags with a valid scan.
 std::vector<Eigen::ArrayXd> pooled(const std::vector<ScannedTag>& tags) {
   std::vector<Eigen::ArrayXd> likelihoods;
   std::vector<std::size_t> which;
@@ -230,7 +230,7 @@ std::vector<TagEstimate> locate_by_scan(const LocalizationProblem& problem, int 
   return estimates;
 }
 
-/// The keys of its options.
+/// Keys of the options.
 const OptionTable<ScanOptions>& scan_options() {
   using O = ScanOptions;
   static const OptionTable<O> of{

@@ -14,11 +14,11 @@
 namespace tagfield {
 namespace {
 
-/// A way is straight that strays from its line by less than this part of a wavelength.
+/// A path is straight if it deviates from its line by less than this fraction of a wavelength.
 constexpr double kStraight = 1.0 / 8.0;
-constexpr double kPlace = 1.0 / 20.0;  ///< Reads so near together are of one place [λ].
-constexpr double kGap = 1.0 / 4.0;     ///< Over longer gaps phases are not followed [λ].
-constexpr double kShortest = 1.0;      ///< Shorter scans tell directions at best [λ].
+constexpr double kPlace = 1.0 / 20.0;  ///< Reads this close together share a position [λ].
+constexpr double kGap = 1.0 / 4.0;     ///< Phases are not unwrapped across longer gaps [λ].
+constexpr double kShortest = 1.0;      ///< Shorter scans give directions at best [λ].
 
 ScanLine line_of(const std::vector<PhaseSample>& series) {
   ScanLine line;
@@ -40,7 +40,7 @@ ScanLine line_of(const std::vector<PhaseSample>& series) {
   return line;
 }
 
-/// How far from the line the way strays [m].
+/// Maximum deviation of the path from the line and from its height [m].
 double straying(const ScanLine& line, const std::vector<PhaseSample>& series) {
   double most = 0.0;
   for (const PhaseSample& sample : series) {
@@ -50,7 +50,7 @@ double straying(const ScanLine& line, const std::vector<PhaseSample>& series) {
   return most;
 }
 
-/// The sum of the reads of one channel at one place.
+/// Sum of the reads of one channel at one position.
 struct Cell {
   std::complex<double> waves = 0.0;
   double decibels = 0.0;
@@ -58,7 +58,7 @@ struct Cell {
   double reads = 0.0;
 };
 
-using ScanChannel = std::map<int, Cell>;  ///< By place.
+using ScanChannel = std::map<int, Cell>;  ///< By position.
 
 std::map<double, ScanChannel> channels_of(const ScanLine& line, double place_m,
                                           const std::vector<PhaseSample>& series) {
@@ -82,7 +82,7 @@ std::map<double, ScanChannel> channels_of(const ScanLine& line, double place_m,
   return channels;
 }
 
-/// All channels as one, each turned so that it agrees best with the others.
+/// Combines all channels, each rotated to agree best with the others.
 ScanChannel in_agreement(const std::map<double, ScanChannel>& channels) {
   constexpr int kRounds = 4;
   const auto longest = std::max_element(
@@ -116,20 +116,20 @@ ScanChannel in_agreement(const std::map<double, ScanChannel>& channels) {
   return together;
 }
 
-/// The longest stretch without a gap.
-std::vector<Cell> longest_stretch(const ScanChannel& places, double gap_m) {
+/// The section without a gap that has the most positions.
+std::vector<Cell> longest_segment(const ScanChannel& places, double gap_m) {
   std::vector<Cell> longest;
-  std::vector<Cell> stretch;
+  std::vector<Cell> segment;
   for (const auto& [place, cell] : places) {
-    if (!stretch.empty() && cell.along_m - stretch.back().along_m > gap_m) stretch.clear();
-    stretch.push_back(cell);
-    if (stretch.size() > longest.size()) longest = stretch;
+    if (!segment.empty() && cell.along_m - segment.back().along_m > gap_m) segment.clear();
+    segment.push_back(cell);
+    if (segment.size() > longest.size()) longest = segment;
   }
   return longest;
 }
 
-/// Of a field that comes from anywhere: n² over the squares of its correlation, sin(kd)/(kd),
-/// summed over all pairs of places.
+/// Independent samples of a diffuse field: n² over the sum of its squared correlations,
+/// sin(kd)/(kd), over all pairs of positions.
 double independent_samples(const ScanField& scan) {
   double sum = 0.0;
   for (const double a : scan.along_m) {
@@ -153,7 +153,7 @@ void fill(const std::vector<Cell>& cells, bool doubled, ScanField& scan) {
     const Cell& cell = cells[static_cast<std::size_t>(i)];
     phase += wrap_to_pi(std::arg(cell.waves) - phase);
     scan.along_m[i] = cell.along_m;
-    // Without RSSI all places count alike.
+    // Without RSSI, all positions count equally.
     const double amplitude =
         cell.decibels > kNoRssi + 1.0 ? std::pow(10.0, cell.decibels / 40.0) : 1.0;
     scan.field[i] = std::polar(amplitude, phase / ways);
@@ -188,7 +188,7 @@ const std::vector<PhaseSample>* longest_series(const SamplesOfTag& samples) {
 ScanField scan_field(const LocalizationProblem& problem, const std::string& tag,
                      const SamplesOfTag& samples) {
   ScanField scan;
-  scan.why_not = why_hopeless(samples);
+  scan.why_not = why_not_locatable(samples);
   if (!scan.why_not.empty()) return scan;
   const std::vector<PhaseSample>& series = *longest_series(samples);
   const double carrier = mean_carrier(series);
@@ -207,7 +207,7 @@ ScanField scan_field(const LocalizationProblem& problem, const std::string& tag,
     return scan;
   }
   const ScanChannel together = in_agreement(channels_of(scan.line, kPlace * lambda, series));
-  const std::vector<Cell> cells = longest_stretch(together, kGap * lambda);
+  const std::vector<Cell> cells = longest_segment(together, kGap * lambda);
   if (cells.size() < kFewestReads ||
       cells.back().along_m - cells.front().along_m < kShortest * lambda) {
     scan.why_not = "the phase could not be followed over a wavelength of the antenna's path";

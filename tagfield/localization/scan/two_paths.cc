@@ -9,14 +9,14 @@
 namespace tagfield {
 namespace {
 
-using Steering = Eigen::MatrixXcf;  ///< A row a place: its field along the scan, of norm 1.
+using Steering = Eigen::MatrixXcf;  ///< Rows: field of a position along the scan, of norm 1.
 
-constexpr double kNearestWall = 0.1;       ///< No tag is nearer to the scan [m].
+constexpr double kNearestWall = 0.1;       ///< Minimum distance of a tag from the scan [m].
 constexpr double kAlongStep = 1.0 / 13.0;  ///< [λ]
 constexpr double kAwayFactor = 1.035;
-constexpr double kOtherAlongStep = 1.0 / 3.0;  ///< Of the second path's places [λ].
+constexpr double kOtherAlongStep = 1.0 / 3.0;  ///< Of the second path's positions [λ].
 constexpr double kOtherAwayFactor = 1.12;
-constexpr double kLeastPathLeft = 1e-6;  ///< Of the power; floats tell no less.
+constexpr double kLeastPathLeft = 1e-6;  ///< Of the power; the limit of float precision.
 constexpr Eigen::Index kBlock = 64;
 
 Eigen::ArrayXd evenly(double low, double high, double step) {
@@ -29,7 +29,7 @@ Eigen::ArrayXd by_factor(double low, double high, double factor) {
   return Eigen::ArrayXd::LinSpaced(count + 1, std::log(low), std::log(high)).exp();
 }
 
-/// A panel's field falls with the cosine of the angle off its aim, and with distance.
+/// A panel's field decreases with the cosine of the angle off boresight and with distance.
 Steering steering(const ScanField& scan, const ScanGrid& grid) {
   const Eigen::Index n = scan.along_m.size();
   Steering rows(grid.along_m.size() * grid.away_m.size(), n);
@@ -50,7 +50,7 @@ Steering steering(const ScanField& scan, const ScanGrid& grid) {
   return rows;
 }
 
-/// Area that each of the places stands for, in their order; of sum 1.
+/// Area that each position represents, in order; the sum is 1.
 Eigen::ArrayXf areas(const ScanGrid& grid) {
   Eigen::ArrayXf area(grid.along_m.size() * grid.away_m.size());
   Eigen::Index at = 0;
@@ -60,17 +60,17 @@ Eigen::ArrayXf areas(const ScanGrid& grid) {
   return area / area.sum();
 }
 
-/// What all first places are compared with.
+/// Second positions, which all first ones are combined with.
 struct Others {
   Steering rows;
   Eigen::ArrayXcf seen;  ///< Their match with the field.
   Eigen::ArrayXf area;
 };
 
-/// One place's likelihood; `least` the least power left so far.
+/// Likelihood of one position; `least`: smallest remaining power so far.
 double likelihood_of(const Others& others, const Eigen::ArrayXcf& overlap, std::complex<float> seen,
                      double exponent, float& least) {
-  // Two places that see nearly the same are one path.
+  // Two positions with nearly the same field are one path.
   constexpr float kTold = 0.01f;
   double sum = 0.0;
   for (Eigen::Index j = 0; j < overlap.size(); ++j) {
@@ -82,7 +82,7 @@ double likelihood_of(const Others& others, const Eigen::ArrayXcf& overlap, std::
     const float told = std::real(std::conj(seen) * first + std::conj(others.seen[j]) * second);
     const float left = std::max(1.0f - told, static_cast<float>(kLeastPathLeft));
     least = std::min(least, left);
-    // Relative to the least power that may be left, so that nothing overflows.
+    // Relative to the lower limit of the remaining power, to avoid overflow.
     sum +=
         others.area[j] * std::exp(exponent * std::log(kLeastPathLeft / static_cast<double>(left)));
   }
@@ -120,7 +120,7 @@ TwoPathLikelihood two_path_likelihood(const ScanField& scan, const ScanGrid& gri
   for (Eigen::Index begin = 0; begin < rows.rows(); begin += kBlock) {
     const Eigen::Index count = std::min(kBlock, rows.rows() - begin);
     const Eigen::MatrixXcf overlaps =
-        others.rows * rows.middleRows(begin, count).adjoint();  // A column a place.
+        others.rows * rows.middleRows(begin, count).adjoint();  // One column per position.
     for (Eigen::Index i = 0; i < count; ++i) {
       likelihood[begin + i] =
           likelihood_of(others, overlaps.col(i).array(), seen[begin + i], exponent, least);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How likely places are if a tag's field along a straight scan comes by two paths: straight from
-/// the tag, and, weaker, from anywhere else (a wall, a shelf, a tag nearby).
+/// Likelihood of positions if a tag's field along a straight scan arrives by two paths: directly
+/// from the tag, and weaker from anywhere else (a wall, a shelf, a nearby tag).
 #pragma once
 
 #include <Eigen/Core>
@@ -10,27 +10,28 @@
 
 namespace tagfield {
 
-/// Places beside a scan: along it evenly apart, away from it by a constant factor.
+/// Grid of positions beside a scan: evenly spaced along it, geometrically spaced away from it.
 struct ScanGrid {
   Eigen::ArrayXd along_m;  ///< From the line's middle [m].
   Eigen::ArrayXd away_m;   ///< From the line, to either side; over 0 [m].
 };
 
-/// Away from `nearest_m` to `furthest_m`, and half of the scan's length beyond its ends.
+/// Grid from 0.1 m to `furthest_m` away from the scan, and half of its length beyond its ends.
 ScanGrid scan_grid(const ScanField& scan, double furthest_m);
 
-/// Of a tag at each place of the grid.
+/// Likelihood of a tag at each position of the grid.
 struct TwoPathLikelihood {
-  Eigen::ArrayXXd relative;  ///< A row a place along, a column one away; the largest is 1.
+  Eigen::ArrayXXd relative;  ///< Rows: along the scan; columns: away from it; maximum 1.
   double two_paths = 0.0;    ///< Share of the field's power that the best two paths explain.
 };
 
-/// Share of the field's power that the best single path explains, at any place of the grid.
+/// Share of the field's power that the best single path explains, over all positions of the grid.
 double one_path_share(const ScanField& scan, const ScanGrid& grid);
 
-/// With a flat prior of both paths' complex strengths and of the noise's variance (as 1/σ²), the
-/// likelihood of two places is (power left)^−(n − 2), n the independent samples; that of the second
-/// place is averaged over all places within twice the reach, as far as its path is the weaker one.
+/// With flat priors of both paths' complex amplitudes and a 1/σ² prior of the noise variance, the
+/// likelihood of two positions is (power left)^−(n − 2), with n independent samples. The second
+/// position is averaged over a grid that extends the scan's full length beyond its ends, wherever
+/// its path is the weaker one.
 TwoPathLikelihood two_path_likelihood(const ScanField& scan, const ScanGrid& grid);
 
 }  // namespace tagfield

@@ -16,7 +16,7 @@
 namespace tagfield {
 namespace {
 
-/// Distances in signal space below this are one [dB]: weights stay finite.
+/// Smaller distances in signal space are clamped to this [dB], to keep weights finite.
 constexpr double kLeastDistance = 0.01;
 
 struct Reference {
@@ -26,7 +26,7 @@ struct Reference {
 
 struct References {
   std::vector<Reference> tags;
-  double unread_dbm = 0.0;  ///< Stands for an RSSI of a tag that was not read.
+  double unread_dbm = 0.0;  ///< Substitute for the RSSI of a tag that was not read.
   bool go_by_place = false;
 };
 
@@ -49,7 +49,7 @@ double value_at(const RssiVector& rssi, const RssiVector::key_type& bin, double 
   return found == rssi.end() ? otherwise : found->second;
 }
 
-/// E: root of the mean square difference over the bins in which either was read [dB].
+/// E: root mean square difference over the bins in which either tag was read [dB].
 double signal_distance(const RssiVector& a, const RssiVector& b, double unread_dbm) {
   std::set<RssiVector::key_type> bins;
   for (const auto& [bin, value] : a) bins.insert(bin);
@@ -79,8 +79,8 @@ std::vector<Neighbour> nearest(const References& references, const RssiVector& r
   return neighbours;
 }
 
-/// Correlation of how far tags are apart with how much their strengths differ, over all pairs;
-/// `order` puts their places in another order.
+/// Correlation between the distance of tags and the difference of their RSSI, over all pairs;
+/// `order` permutes their positions.
 double likeness(const References& references, const std::vector<std::vector<double>>& signal_db,
                 const std::vector<std::size_t>& order) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
@@ -96,8 +96,8 @@ double likeness(const References& references, const std::vector<std::vector<doub
   return spread > 0.0 ? (xy - x * y / n) / std::sqrt(spread) : 0.0;
 }
 
-/// Whether tags that are near each other are read alike: Mantel's test (Cancer Research 27, 1967),
-/// at most one of a hundred random orders of their places as much as the true one.
+/// Whether tags close to each other have similar RSSI, by Mantel's test (Cancer Research 27, 1967):
+/// at most 1 % of random permutations of their positions correlate as well as the true order.
 bool go_by_place(const References& references) {
   constexpr int kOrders = 1000;
   const std::size_t count = references.tags.size();
@@ -122,7 +122,7 @@ bool go_by_place(const References& references) {
   return 100 * as_good <= kOrders;
 }
 
-/// Mean of the neighbours' places by the weights 1/E², with their weighted scatter as covariance.
+/// Mean of the neighbours' positions with weights 1/E², and their weighted scatter as covariance.
 Candidate between(const std::vector<Neighbour>& neighbours) {
   double sum = 0.0;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -145,7 +145,7 @@ Candidate between(const std::vector<Neighbour>& neighbours) {
   return candidate;
 }
 
-/// A height that is known is not estimated.
+/// A known height is kept, not estimated.
 void keep_height(const LocalizationProblem& problem, const std::string& tag, Candidate& candidate) {
   const bool known = problem.heights.of_all || problem.heights.of_tag.count(tag) > 0;
   if (!known) return;
@@ -193,7 +193,7 @@ std::vector<TagEstimate> locate_by_references(const LocalizationProblem& problem
   });
 }
 
-/// The keys of its options.
+/// Keys of the options.
 const OptionTable<LandmarcOptions>& landmarc_options() {
   using O = LandmarcOptions;
   static const OptionTable<O> of{

@@ -10,20 +10,20 @@
 
 namespace tagfield {
 
-/// With fewer no tag is located: that no more than one of a hundred orders of their places may suit
-/// the RSSI as well as the true one takes five, 5! = 120.
+/// With fewer, no tag is located: a permutation test at the 1 % level needs at least five tags, as
+/// 5! = 120.
 inline constexpr std::size_t kFewestReferenceTags = 5;
 
 struct LandmarcOptions {
   std::size_t neighbours = 4;  ///< k, at least 1.
-  double bin_s = 1.0;          ///< RSSI is averaged over so long; over 0.
-  /// An antenna that reads one of two tags only is taken to get the weakest RSSI of all from the
-  /// other, less this [dB], at least 0.
+  double bin_s = 1.0;          ///< RSSI is averaged over this time; over 0.
+  /// If an antenna reads only one of two tags, the other's RSSI is taken as the weakest of all
+  /// minus this [dB], at least 0.
   double unread_margin_db = 3.0;
-  double max_expected_error_m = 5.0;  ///< In place of the problem's limit, which is for phase.
+  double max_expected_error_m = 5.0;  ///< Replaces the problem's limit, which is for phase.
 };
 
-/// "landmarc": all tags, one by one. Throws Error on options out of their range.
+/// Method "landmarc": each tag independently. Throws Error on options out of range.
 Method landmarc_method(const LandmarcOptions& options = {});
 
 }  // namespace tagfield

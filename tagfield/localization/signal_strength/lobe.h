@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Gain of an antenna over direction, as far as a data sheet tells it: a lobe about the boresight.
+/// Directional gain of an antenna, as far as a data sheet gives it: a lobe around the boresight.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,18 +9,18 @@
 
 namespace tagfield {
 
-/// Of antennas whose poses say where they look, along their x axes: cosⁿ of the angle off the
-/// boresight, n by the half-power width; never under `-front_to_back_db`. Base of options.
+/// Lobe of antennas whose boresight is the x axis of their poses: cosⁿ of the angle off boresight,
+/// with n from the half-power width, but at least `-front_to_back_db`. Base of options.
 struct Lobe {
-  double beam_width_deg = 0.0;  ///< 0: where antennas look is not known, or doesn't matter.
+  double beam_width_deg = 0.0;  ///< 0: orientation unknown or irrelevant.
   double front_to_back_db = 25.0;
 };
 
-/// There and back, over that along the boresight [dB], towards `way_W` from the antenna; 0 where
-/// the lobe is not known.
+/// Round-trip gain relative to boresight [dB] in the direction `way_W` from the antenna; 0 if the
+/// lobe is unknown.
 double lobe_db(const Lobe& lobe, const Eigen::Vector3d& boresight_W, const Eigen::Vector3d& way_W);
 
-/// The keys of options with a lobe.
+/// Keys of options with a lobe.
 template <class Options>
 std::vector<Setting<Options>> with_lobe(std::vector<Setting<Options>> table) {
   table.push_back(setting<Options>(

@@ -16,32 +16,33 @@
 namespace tagfield {
 namespace {
 
-constexpr double kCell = 0.5;             ///< Of the grid that is searched [m].
-constexpr double kSameMinimum = 0.2;      ///< Minima nearer than this are one [m].
-constexpr std::size_t kRssiStarts = 8;    ///< Cells to start a fit from.
-constexpr double kNearestAntenna = 0.05;  ///< Distances below this count as this [m].
-constexpr double kAnything = 1e6;         ///< Expected error where nothing is known [m].
+constexpr double kCell = 0.5;             ///< Of the search grid [m].
+constexpr double kSameMinimum = 0.2;      ///< Minima closer than this are the same [m].
+constexpr std::size_t kRssiStarts = 8;    ///< Cells from which a fit starts.
+constexpr double kNearestAntenna = 0.05;  ///< Smaller distances are clamped to this [m].
+constexpr double kAnything = 1e6;         ///< Expected error if nothing is known [m].
 constexpr Eigen::Index kFewestBins = 6;
-/// The error of a mean of many reads does not go below this [dB]: reflections and the pattern.
+/// Lower bound on the error of a mean of many reads [dB], due to reflections and the antenna
+/// pattern.
 constexpr double kLeastRssiNoise = 0.5;
 
-/// Height of an antenna's line as far as it is known [dBm at 1 m].
+/// Prior of an antenna's level [dBm at 1 m].
 struct RssiLevel {
   double mean_dbm = 0.0;
   double precision = 0.0;  ///< 1/variance [1/dB²], in units of the bins' noise; 0: unknown.
 };
 
-/// The law of one problem.
+/// Path-loss law of one problem.
 struct Law {
   double slope_db = 40.0;
   std::map<std::string, RssiLevel> levels;  ///< By antenna.
 };
 
-/// The bins of one tag, antenna after antenna.
+/// The bins of one tag, grouped by antenna.
 struct Bins {
   Eigen::ArrayXd x, y, z, rssi, weight;
   Spans spans;
-  std::vector<Eigen::Vector3d> boresights_W;  ///< Where antennas looked.
+  std::vector<Eigen::Vector3d> boresights_W;  ///< Boresights of the antennas.
   Lobe lobe;
 };
 
@@ -76,7 +77,7 @@ Bins bins_of(const LocalizationProblem& problem, const SamplesOfTag& samples,
     bins.y[i] = bin.p_WA.y();
     bins.z[i] = bin.p_WA.z();
     bins.rssi[i] = bin.rssi_dbm;
-    // Beyond a few reads the bins' errors are those of the surroundings.
+    // With more than a few reads, the error of a bin is dominated by the surroundings.
     bins.weight[i] = std::min(bin.reads, 4.0) / 4.0;
   }
   return bins;
@@ -89,7 +90,7 @@ Eigen::ArrayXd distances(const Bins& bins, const Eigen::Vector3d& p_WT) {
       .max(kNearestAntenna);
 }
 
-/// Of the lobes, towards a tag [dB].
+/// Gains of the lobes towards a tag [dB].
 Eigen::ArrayXd gains(const Bins& bins, const Eigen::Vector3d& p_WT) {
   Eigen::ArrayXd gain = Eigen::ArrayXd::Zero(bins.rssi.size());
   if (bins.lobe.beam_width_deg <= 0.0) return gain;
@@ -100,7 +101,7 @@ Eigen::ArrayXd gains(const Bins& bins, const Eigen::Vector3d& p_WT) {
   return gain;
 }
 
-/// By how much they change along an axis [dB/m].
+/// Derivatives of the gains along an axis [dB/m].
 Eigen::ArrayXd gain_slopes(const Bins& bins, const Eigen::Vector3d& p_WT,
                            const Eigen::Vector3d& axis) {
   constexpr double kStep = 1e-4;  // [m]
@@ -112,7 +113,7 @@ RssiLevel level_of(const Law& law, const std::string& antenna) {
   return level == law.levels.end() ? RssiLevel{} : level->second;
 }
 
-/// A span's level that suits best, with what is known of it.
+/// Best-fitting level of a span, including its prior.
 double best_level(const Bins& bins, const TagPhases::Span& span, const RssiLevel& known,
                   const Eigen::ArrayXd& above_line) {
   const auto weight = bins.weight.segment(span.begin, span.count);
@@ -120,10 +121,10 @@ double best_level(const Bins& bins, const TagPhases::Span& span, const RssiLevel
   return (sum + known.precision * known.mean_dbm) / (weight.sum() + known.precision);
 }
 
-/// RSSI less that of the law, levels fitted, times the root of the weight [dB].
+/// RSSI minus that of the law with fitted levels, times the square root of the weight [dB].
 struct Misfit {
   Eigen::ArrayXd residuals;
-  double cost = 0.0;  ///< With what the levels' deviations cost.
+  double cost = 0.0;  ///< Including the cost of the levels' deviations.
 };
 
 Misfit misfit_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
@@ -140,7 +141,7 @@ Misfit misfit_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) 
   return misfit;
 }
 
-/// Σ J Jᵀ by x and y [dB²/m²], levels eliminated, and the gradient.
+/// Σ J Jᵀ for x and y [dB²/m²] with levels eliminated, and the gradient.
 struct RssiStep {
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
@@ -177,7 +178,7 @@ struct Fit {
   double cost = 0.0;
 };
 
-/// A fit under way.
+/// State of a fit.
 struct RssiPoint {
   Eigen::Vector3d p_WT;
   Eigen::ArrayXd residuals;
@@ -189,7 +190,7 @@ RssiPoint point_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT
   return {p_WT, std::move(misfit.residuals), misfit.cost};
 }
 
-/// In the plane of the tag.
+/// Fit refined in the plane of the tag.
 Fit refined(const Bins& bins, const Law& law, const Eigen::Vector3d& start) {
   constexpr double kTolerance = 1e-5;  // [m]
   constexpr double kRidge = 1e-9;
@@ -223,7 +224,7 @@ bool in_reach(const Bins& bins, const Eigen::Vector3d& p_WT, double max_range) {
   return distances(bins, p_WT).maxCoeff() <= max_range;
 }
 
-/// Misfits over all the area that is in reach of all reads.
+/// Misfits over the area within range of all reads.
 std::vector<Fit> cells_of(const Bins& bins, const Law& law, double height, double max_range) {
   const Eigen::Vector3d middle(0.5 * (bins.x.minCoeff() + bins.x.maxCoeff()),
                                0.5 * (bins.y.minCoeff() + bins.y.maxCoeff()), height);
@@ -239,7 +240,7 @@ std::vector<Fit> cells_of(const Bins& bins, const Law& law, double height, doubl
   return cells;
 }
 
-/// Minima of the misfit about its least cells, best first.
+/// Minima of the misfit near its best cells, best first.
 std::vector<Fit> minima_of(const Bins& bins, const Law& law, std::vector<Fit> cells) {
   std::vector<Fit> fits;
   for (const Fit& cell : distinct(std::move(cells), 2.0 * kCell, kRssiStarts)) {
@@ -248,7 +249,7 @@ std::vector<Fit> minima_of(const Bins& bins, const Law& law, std::vector<Fit> ce
   return distinct(std::move(fits), kSameMinimum, kRssiStarts);
 }
 
-/// Variance of a residual, of which so many are independent [dB²].
+/// Residual variance times the residuals' correlation factor [dB²].
 double noise_of(const Bins& bins, const Eigen::ArrayXd& residuals) {
   return std::max(residual_variance(bins.spans, residuals), kLeastRssiNoise * kLeastRssiNoise) *
          correlation_factor(bins.spans, residuals);
@@ -268,15 +269,14 @@ Candidate candidate_at(const Bins& bins, const Law& law, const Eigen::Vector3d& 
     candidate.covariance->topLeftCorner<2, 2>() = inverse;
     candidate.expected_error_m = std::sqrt(inverse.trace());
   }
-  // What the misfit is in distance, at the mean distance.
+  // The misfit converted to distance, at the mean distance.
   candidate.rms_m = std::sqrt(misfit.residuals.square().mean()) * std::log(10.0) / law.slope_db *
                     distances(bins, p_WT).mean();
   return candidate;
 }
 
-/// ln of how much likelier places anywhere in reach make the RSSI, in the mean, than a strength
-/// that does not change with the place at all, whatever it is; either with the noise that it
-/// leaves.
+/// ln of the likelihood ratio of the RSSI, averaged over all positions in reach, against an
+/// arbitrary RSSI that does not depend on position; each with its own residual noise.
 double log_evidence(const Bins& bins, const std::vector<Fit>& cells, const Eigen::ArrayXd& best) {
   Law flat;
   flat.slope_db = 0.0;
@@ -295,14 +295,14 @@ double log_evidence(const Bins& bins, const std::vector<Fit>& cells, const Eigen
   return most + std::log((logs - most).exp().mean());
 }
 
-/// Where in a bin its reads were is not known any more: a tag among them is no better known.
+/// Adds the uncertainty of the reads' positions within a bin, which limits that of a tag.
 void add_bin_length(double bin_m, Candidate& candidate) {
   candidate.covariance->diagonal().head<2>().array() += bin_m * bin_m / 12.0;
   candidate.expected_error_m = std::hypot(candidate.expected_error_m, bin_m / std::sqrt(6.0));
 }
 
-/// Candidates' covariances where misfits over the area say that they are wider than slopes do: the
-/// mean squares about each over the cells that are nearest to it.
+/// Widens candidates' covariances where misfits over the area suggest a larger spread than
+/// derivatives do: the mean squares around each candidate over the cells nearest to it.
 void widen(const Bins& bins, const Law& law, const std::vector<Fit>& cells,
            std::vector<Candidate>& candidates) {
   const Misfit best = misfit_at(bins, law, candidates.front().p_WT);
@@ -330,8 +330,8 @@ void widen(const Bins& bins, const Law& law, const std::vector<Fit>& cells,
   }
 }
 
-/// Straight line through RSSI over log-distance of the reference tags: slope with its prior, one
-/// level for each antenna.
+/// Sums for a line fit of the reference tags' RSSI over log-distance: slope with its prior, one
+/// level per antenna.
 struct LineSums {
   double weight = 0.0, log = 0.0, rssi = 0.0, log_log = 0.0, log_rssi = 0.0;
 };
@@ -359,13 +359,13 @@ std::map<std::string, LineSums> sums_of_references(const LocalizationProblem& pr
   return sums;
 }
 
-/// Of the slope: half the prior's squared deviation in units of about 2 dB of noise.
+/// Weight of the slope's prior: its precision in units of about 2 dB of noise.
 double prior_weight(const TrilaterationOptions& options) {
   constexpr double kNoise = 2.0;
   return kNoise * kNoise / (options.slope_sigma_db * options.slope_sigma_db);
 }
 
-/// The law by the reference tags; levels only where there are any.
+/// The law from the reference tags; levels only if there are any.
 Law law_of_references(const LocalizationProblem& problem, const TrilaterationOptions& options) {
   const auto sums = sums_of_references(problem, options);
   Law law;
@@ -389,7 +389,7 @@ Law law_of_references(const LocalizationProblem& problem, const TrilaterationOpt
   return law;
 }
 
-/// What all tags together cost under a slope.
+/// Total cost of all tags for a given slope.
 double cost_of(const std::vector<Bins>& tags, const std::vector<double>& heights, const Law& law,
                const TrilaterationOptions& options) {
   double cost = prior_weight(options) * std::pow(law.slope_db - options.slope_db, 2);
@@ -401,7 +401,7 @@ double cost_of(const std::vector<Bins>& tags, const std::vector<double>& heights
   return cost;
 }
 
-/// Without reference tags: the slope under which all tags fit best.
+/// Without reference tags: the slope that fits all tags best.
 double fitted_slope(const LocalizationProblem& problem, const TrilaterationOptions& options) {
   constexpr std::size_t kMostTags = 12;
   std::vector<Bins> tags;
@@ -493,7 +493,7 @@ std::vector<TagEstimate> locate_by_rssi(const LocalizationProblem& problem, int 
   });
 }
 
-/// The keys of its options.
+/// Keys of the options.
 const OptionTable<TrilaterationOptions>& trilateration_options() {
   using O = TrilaterationOptions;
   static const OptionTable<O> of{with_lobe<O>(

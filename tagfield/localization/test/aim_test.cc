@@ -10,12 +10,12 @@ namespace {
 
 using namespace made;
 
-/// Antennas that look along y and against it, and a tag at (3, 2) or its mirror image.
+/// Antennas with boresights along +y and −y, and a tag at (3, 2) or its mirror image.
 struct Aisle {
   double front_to_back_db = 20.0;
   double fading_db = 5.0;
-  double other_level_db = 0.0;  ///< Of the one that looks away, by its cable.
-  bool orientation_told = true;
+  double other_level_db = 0.0;  ///< Level of the antenna that faces away, due to its cable.
+  bool orientation_known = true;
 };
 
 LocalizationProblem problem_of(const Aisle& aisle, Rng& rng) {
@@ -26,13 +26,13 @@ LocalizationProblem problem_of(const Aisle& aisle, Rng& rng) {
     const std::string antenna = look > 0.0 ? "left" : "right";
     auto& series = problem.samples["t"][antenna];
     series = read_along(path, path, p_WT, Noise{}, rng);
-    const double yaw = aisle.orientation_told ? look * kPi / 2.0 : 0.0;
+    const double yaw = aisle.orientation_known ? look * kPi / 2.0 : 0.0;
     const Eigen::Quaterniond rotation(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
     double fading = 0.0;
     for (PhaseSample& s : series) {
       const Eigen::Vector3d way = p_WT - s.p_WA;
       const double cosine = look * way.y() / way.norm();
-      // Forgotten over some decimetres.
+      // Decorrelates over a few decimetres.
       fading = 0.9 * fading + normal(rng, aisle.fading_db * std::sqrt(1.0 - 0.81));
       s.rssi_dbm = -40.0 - 40.0 * std::log10(way.norm()) + 0.5 * aisle.front_to_back_db * cosine +
                    fading + (look < 0.0 ? aisle.other_level_db : 0.0);
@@ -56,7 +56,7 @@ TEST(Aim, TellsThePlaceInFrontFromThatBehind) {
   Rng rng(1);
   for (int i = 0; i < 50; ++i) {
     LocalizationResult result = both_images();
-    drop_places_behind(problem_of({}, rng), result);
+    drop_candidates_behind(problem_of({}, rng), result);
     const TagEstimate& estimate = result.estimates.at(0);
     ASSERT_EQ(estimate.verdict, Verdict::kLocated) << i;
     EXPECT_GT(estimate.candidates.at(0).p_WT.y(), 0.0) << i;
@@ -68,28 +68,29 @@ TEST(Aim, SeldomDropsTheTruthWhereItTellsNothing) {
   int dropped = 0;
   for (int i = 0; i < 200; ++i) {
     LocalizationResult result = both_images();
-    drop_places_behind(problem_of({.front_to_back_db = 0.0, .other_level_db = 3.0}, rng), result);
+    drop_candidates_behind(problem_of({.front_to_back_db = 0.0, .other_level_db = 3.0}, rng),
+                           result);
     const auto& kept = result.estimates.at(0).candidates;
     dropped += kept.size() == 1 && kept.at(0).p_WT.y() < 0.0 ? 1 : 0;
   }
-  // One in a hundred is meant; 3 dB between levels is one standard deviation more.
+  // The target is one in a hundred; a level difference of 3 dB adds one standard deviation.
   EXPECT_LE(dropped, 10);
 }
 
 TEST(Aim, DoesNothingWithoutOrientationOrStrength) {
   Rng rng(3);
   LocalizationResult result = both_images();
-  drop_places_behind(problem_of({.orientation_told = false}, rng), result);
+  drop_candidates_behind(problem_of({.orientation_known = false}, rng), result);
   EXPECT_EQ(result.estimates.at(0).candidates.size(), 2U);
   LocalizationProblem silent = problem_of({}, rng);
   for (auto& [antenna, series] : silent.samples.at("t")) {
     for (PhaseSample& s : series) s.rssi_dbm = kNoRssi;
   }
-  drop_places_behind(silent, result);
+  drop_candidates_behind(silent, result);
   EXPECT_EQ(result.estimates.at(0).candidates.size(), 2U);
 }
 
-/// Both antennas, each with the other's poses if they are `swapped`.
+/// Result with both antennas, whose poses are exchanged if `swapped`.
 LocalizationResult held_against_aims(LocalizationProblem problem, bool swapped,
                                      Diagnostics& diagnostics) {
   if (swapped) std::swap(problem.tracks.at("left"), problem.tracks.at("right"));

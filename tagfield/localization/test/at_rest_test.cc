@@ -17,7 +17,7 @@ using made::Rng;
 
 constexpr int kTags = 40;
 
-/// Tags that move at one velocity, or are at rest; true poses, which nobody told.
+/// Tags at rest or at a common velocity; exact poses that are not stated as exact.
 made::Hall hall_with(const Eigen::Vector3d& velocity, Rng& rng) {
   const made::Path path = made::s_curve(8.0, 0.02);
   made::Hall hall = made::hall(path, path, kTags, {}, rng);
@@ -59,13 +59,13 @@ TEST(AtRest, TellsAVelocityAsWellAsItSays) {
     squares += off.dot(fit.covariance.bottomRightCorner<2, 2>().inverse() * off);
     EXPECT_GT(fit.log_gain, 13.8) << tag;
   }
-  // χ² of 80 degrees of freedom: within 45 and 125 but for a chance of 1e-3; covariances may be
-  // wider by the correlation that noise seems to have.
+  // χ² with 80 degrees of freedom: between 45 and 125 except with a probability of 1e-3;
+  // covariances may be wider because of spurious correlation of the noise.
   EXPECT_GT(squares, 30.0);
   EXPECT_LT(squares, 125.0);
 }
 
-/// As long as from the first read to the last, but for pauses.
+/// Duration from the first read to the last, without pauses.
 double duration_of(const made::Hall& hall) {
   return fit_of(hall, "t0", Departure::kMotion).duration_s;
 }
@@ -81,7 +81,7 @@ TEST(AtRest, PausesOfOverTwoSecondsAreNoPartOfAMotion) {
   const double read_s = 1.0 / made::kPathRate;
   const double duration_s = duration_of(hall);
   EXPECT_NEAR(duration_s, static_cast<double>(path.size() - 1) * read_s, 0.5);
-  // From read to read it is one period more than the clock goes on by.
+  // From read to read it is one period longer than the clock's jump.
   for (const double pause_s : {1.9, 2.0, 60.0}) {
     made::Hall paused = hall;
     made::pause(paused, 15.0, pause_s);
@@ -101,10 +101,10 @@ TEST(AtRest, TellsHowLateStampsAre) {
     made::make_late(hall, late_s);
     double squares = 0.0;
     for (const auto& [tag, truth] : hall.truth) {
-      const DepartureFit fit = fit_of(hall, tag, Departure::kLateness);
+      const DepartureFit fit = fit_of(hall, tag, Departure::kLatency);
       squares += std::pow(fit.departure[0] - late_s, 2) / fit.covariance(3, 3);
     }
-    EXPECT_LT(squares, 73.0) << late_s;  // χ² of 40, 1e-3.
+    EXPECT_LT(squares, 73.0) << late_s;  // χ² with 40 degrees of freedom, 1e-3.
   }
 }
 
@@ -119,7 +119,7 @@ TEST(AtRest, TagsAtRestStay) {
           find_method(built_in_methods(), method).locate(hall.problem, 2, diagnostics));
       EXPECT_GT(before, 0U) << method << reflected;
       const std::size_t after = located_tags(judged(method, hall, diagnostics));
-      // Of wrong places in front of mirrors some are refused.
+      // Some wrong positions in front of mirrors are refused.
       EXPECT_GE(after, reflected ? before - before / 10 : before) << method << reflected;
     }
   }
@@ -128,7 +128,8 @@ TEST(AtRest, TagsAtRestStay) {
 TEST(AtRest, TagsThatMoveAreRefused) {
   Rng rng(4);
   made::Hall hall = hall_with({0.05, 0.03, 0.0}, rng);
-  hall.problem.pose_error = PoseErrorModel{};  // Told: none. Else it might be that.
+  // Stated as 0; otherwise pose errors could explain the motion.
+  hall.problem.pose_error = PoseErrorModel{};
   for (const char* method : {"hyperbola", "ml", "sar", "robust", "trilateration"}) {
     Diagnostics diagnostics;
     EXPECT_EQ(located_tags(judged(method, hall, diagnostics)), 0U) << method;
@@ -136,7 +137,7 @@ TEST(AtRest, TagsThatMoveAreRefused) {
   }
 }
 
-/// Of each tag, a place some decimetres off that is known to a metre, as strengths tell it.
+/// For each tag, a position some decimetres off with an expected error of a metre, as from RSSI.
 LocalizationResult vague_claims(const made::Hall& hall) {
   LocalizationResult result;
   for (const auto& [tag, truth] : hall.truth) {
@@ -188,9 +189,9 @@ TEST(AtRest, PhasesThatSayNothingRefuseNoPlaceByStrengths) {
   EXPECT_EQ(located_tags(result), std::size_t{kTags});
 }
 
-// Nothing is told of the poses. Some of these motions leave less at the best place than poses are
-// usually off; but a velocity explains all of it, and other tags surely move. In 20 to 36 places of
-// each method, all of them wrong.
+// No pose error is stated. Some of these motions leave smaller residuals at the best position than
+// usual pose errors; but a velocity explains them completely, and other tags surely move. Without
+// the check each method gives 20 to 36 positions, all wrong.
 TEST(AtRest, SlowTagsAreRefusedWhoseMotionExplainsAll) {
   Rng rng(6);
   for (const Eigen::Vector3d& velocity :

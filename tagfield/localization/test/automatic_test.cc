@@ -40,7 +40,7 @@ TEST(Automatic, SeesReflectionsWhereAnExactPoseDoesNotFit) {
   noise.pose_m = 0.03;
   noise.pose_time = 0.7;
   made::Hall hall = moving_hall(noise);
-  hall.problem.pose_error = PoseErrorModel{};  // What is off must be the phase.
+  hall.problem.pose_error = PoseErrorModel{};  // The phase must be biased.
   const Choice choice = choice_for(hall.problem);
   EXPECT_EQ(choice.method, "robust");
   EXPECT_NE(choice.why.find("reflections"), std::string::npos);
@@ -50,7 +50,7 @@ TEST(Automatic, SeesReflectionsWhereNoPoseErrorExplainsThem) {
   made::Hall hall = moving_hall({});
   made::reflect(made::walls(0.5), hall);
   hall.problem.pose_error.reset();
-  EXPECT_EQ(choice_for(hall.problem).method, "joint");  // At first sight.
+  EXPECT_EQ(choice_for(hall.problem).method, "joint");  // At first.
   Diagnostics diagnostics;
   const Method method = find_method(built_in_methods(), "auto");
   const LocalizationResult result = method.locate(hall.problem, 2, diagnostics);
@@ -58,7 +58,8 @@ TEST(Automatic, SeesReflectionsWhereNoPoseErrorExplainsThem) {
   EXPECT_NE(result.why.find("even with the pose error estimated"), std::string::npos) << result.why;
 }
 
-/// `joint` as if it had refused all tags for poses that are off, each with a misfit of `misfit_m`.
+/// Methods with a fake `joint` that refuses all tags because of wrong poses, each with a misfit of
+/// `misfit_m`.
 std::vector<Method> with_refusing_joint(double misfit_m) {
   std::vector<Method> methods = built_in_methods();
   for (Method& method : methods) {
@@ -95,7 +96,7 @@ TEST(Automatic, StaysWithJointThatRefusedAllUnlessItLeftMoreThanNoise) {
   }
 }
 
-/// On ten carriers 0.5 MHz apart, 8 reads each, with an offset of each; the true phases anew.
+/// Recomputes the true phases on ten carriers 0.5 MHz apart, 8 reads each, with an offset for each.
 void hop(const made::Path& path, made::Hall& hall, made::Rng& rng) {
   for (auto& [tag, samples] : hall.problem.samples) {
     for (PhaseSample& sample : samples["a"]) {
@@ -117,11 +118,11 @@ TEST(Automatic, AddsUpWavesWhereTheCarrierHops) {
   hop(path, hall, rng);
   const DataTraits traits = traits_of(hall.problem, 1);
   EXPECT_EQ(traits.channels, 10U);
-  EXPECT_LT(traits.reads_a_stretch, 12.0);
+  EXPECT_LT(traits.reads_per_segment, 12.0);
   EXPECT_EQ(choose_method(traits, 0).method, "sar");
 }
 
-// Of some tags the noise seems a bit less than it is: these alone could be unwrapped.
+// For some tags the noise is slightly underestimated: only these could be unwrapped.
 TEST(Automatic, AddsUpWavesWhereNoiseLeavesFewPhasesToFollow) {
   made::Noise noise;
   noise.phase_rad = 0.6;
@@ -129,7 +130,7 @@ TEST(Automatic, AddsUpWavesWhereNoiseLeavesFewPhasesToFollow) {
   const made::Path path = made::aisles(0.02);
   const made::Hall hall = made::hall(path, 12, noise, rng);
   const DataTraits traits = traits_of(hall.problem, 1);
-  EXPECT_GE(traits.reads_a_stretch, 12.0);
+  EXPECT_GE(traits.reads_per_segment, 12.0);
   EXPECT_LT(traits.followed, 0.5);
   EXPECT_EQ(choose_method(traits, 0).method, "sar");
   Diagnostics diagnostics;
@@ -154,7 +155,7 @@ TEST(Automatic, EstimatesThePoseErrorWhereTheCarrierHopsToo) {
   made::Hall hall =
       made::hall(path, made::believed(path, noise, made::kPathRate, rng), 8, noise, rng);
   hop(path, hall, rng);
-  EXPECT_EQ(choice_for(hall.problem).method, "robust");  // At first sight.
+  EXPECT_EQ(choice_for(hall.problem).method, "robust");  // At first.
   Diagnostics diagnostics;
   const LocalizationResult result =
       find_method(built_in_methods(), "auto").locate(hall.problem, 2, diagnostics);
@@ -225,7 +226,7 @@ TEST(Automatic, TakesTheWorldForKnownUnlessItMustNot) {
   EXPECT_EQ(asked.locate(hall.problem, 1, without).method, "ml");
   ASSERT_EQ(without.warnings().size(), 1U);
   EXPECT_NE(without.warnings().front().find("known_world has no effect"), std::string::npos);
-  // An empty room: the direct path, and nothing else.
+  // An empty room: only the direct path.
   hall.problem.trace = [](const std::string& /*tag*/, const Eigen::Vector3d& /*p_WT*/,
                           const std::map<std::string, TracedFrom>& antennas) {
     TracedReplies replies;

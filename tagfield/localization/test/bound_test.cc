@@ -32,8 +32,8 @@ made::Hall hall_on_true_poses(int tags, double pose_sigma, unsigned seed) {
   return hall;
 }
 
-/// Information about the places by the marginal covariance of the reads, with no knots: R = σ² I +
-/// G K Gᵀ with the process' covariance K between all reads, offsets as unknowns.
+/// Covariance of the positions from the marginal covariance of the reads, without knots: R = σ² I +
+/// G K Gᵀ with the process' covariance K between all reads, and offsets as unknowns.
 Eigen::MatrixXd brute_force_covariance(const BoundInput& input) {
   std::vector<const PhaseSample*> reads;
   std::vector<int> tag_of;
@@ -48,7 +48,7 @@ Eigen::MatrixXd brute_force_covariance(const BoundInput& input) {
   const auto n = static_cast<Eigen::Index>(reads.size());
   const auto tags = static_cast<Eigen::Index>(places.size());
   const PoseErrorModel& model = *input.truth.pose_error;
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n, 3 * tags);  // x, y and the offset of each tag.
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n, 3 * tags);  // x, y and offset of each tag.
   Eigen::MatrixXd R(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -89,7 +89,7 @@ void expect_the_marginal_covariance(const BoundInput& input) {
     for (Eigen::Index j = 0; j < 3; ++j) {
       const Eigen::Matrix2d found = joint.covariance.block<2, 2>(3 * i, 3 * j);
       const Eigen::Matrix2d brute = expected.block<2, 2>(3 * i, 3 * j);
-      // Straight lines between the knots miss a little of the process.
+      // Linear interpolation between knots misses a little of the process.
       const double scale = Eigen::Matrix2d(expected.block<2, 2>(3 * i, 3 * i)).norm();
       EXPECT_LT((found - brute).norm(), 0.03 * scale);
     }
@@ -138,7 +138,8 @@ TEST(Bound, OfReferenceTagsIsZero) {
 }
 
 TEST(Bound, MeanErrorIsThatOfTheNormalDistribution) {
-  // A line: the mean of |x| is σ√(2/π). A circle: σ√(π/2), Rayleigh's mean.
+  // On a line the mean of |x| is σ√(2/π). For a circle it is σ√(π/2), the mean of Rayleigh's
+  // distribution.
   const Eigen::Matrix3d line = Eigen::Vector3d(4.0, 0.0, 9.0).asDiagonal();
   EXPECT_NEAR(mean_horizontal_error(line), 2.0 * std::sqrt(2.0 / kPi), 1e-12);
   const Eigen::Matrix3d circle = Eigen::Vector3d(4.0, 4.0, 0.0).asDiagonal();
@@ -150,7 +151,7 @@ TEST(Bound, MeanErrorIsThatOfTheNormalDistribution) {
     sum += std::hypot(made::normal(rng, 3.0), made::normal(rng, 1.0));
   }
   const Eigen::Matrix3d ellipse = Eigen::Vector3d(9.0, 1.0, 0.0).asDiagonal();
-  EXPECT_NEAR(mean_horizontal_error(ellipse), sum / kDraws, 0.02);  // Five deviations.
+  EXPECT_NEAR(mean_horizontal_error(ellipse), sum / kDraws, 0.02);  // Five standard deviations.
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ Vector3d any_direction(Rng& rng) {
   return Vector3d(normal(rng, 1.0), normal(rng, 1.0), normal(rng, 1.0)).normalized();
 }
 
-/// A tag read from two aisles by a right-circular antenna that looks to the left of its way.
+/// A tag read from two aisles by a right-hand circular antenna that faces left of its path.
 struct WiredTag {
   Vector3d p_WT;
   Vector3d axis_W;
@@ -38,7 +38,7 @@ LocalizationProblem problem_of(const WiredTag& tag, Rng& rng) {
     const double heading = std::atan2(next.y() - last.y(), next.x() - last.x());
     const Eigen::Quaterniond rotation(Eigen::AngleAxisd(heading + kPi / 2.0, Vector3d::UnitZ()));
     problem.tracks["a"].X_WA.push_back({s.stamp, {rotation, s.p_WA}});
-    // The field of two crossed wires, a quarter of a turn apart, on the wire.
+    // Field of two crossed wires, fed 90° apart, projected onto the tag's wire.
     const Vector3d u = (tag.p_WT - s.p_WA).normalized();
     const Eigen::Vector3cd wires = (rotation * Vector3d::UnitZ()).cast<std::complex<double>>() +
                                    std::complex<double>(0.0, 1.0) *
@@ -72,7 +72,7 @@ TEST(CircularPolarization, DoesNotTurnWhereAnUprightTagIsAsHigh) {
   }
 }
 
-/// Of tags whose wires point anywhere.
+/// Results for tags with wires in random directions.
 struct WireStudy {
   Tally tally;
   double squares = 0.0;  ///< NEES in x and y.
@@ -105,14 +105,14 @@ WireStudy study(bool is_known) {
 TEST(CircularPolarization, WireIsFittedWithThePlaceAndItsErrorIsStated) {
   const WireStudy known = study(true);
   const std::size_t located = known.tally.errors.size();
-  // Some wires are seen along themselves, where the turn is steep, and can't be told.
+  // Some wires are seen end-on, where the rotation varies steeply, and can't be estimated.
   EXPECT_GE(located, 45U);
   EXPECT_LE(known.tally.worse_than(0.1), 3U);
   EXPECT_EQ(known.tally.worse_than(0.3), 0U);
-  // χ² of 2 degrees of freedom each: 99.9 % of means over 45 lie within 1 ± 0.5.
+  // χ² with 2 degrees of freedom each: 99.9 % of means over 45 lie within 1 ± 0.5.
   EXPECT_LT(known.squares / (2.0 * static_cast<double>(located)), 1.5);
   EXPECT_GT(known.squares / (2.0 * static_cast<double>(located)), 0.5);
-  // Taken for distance, the turns put tags elsewhere.
+  // If the phase rotations are taken for distance, positions are wrong.
   const WireStudy unknown = study(false);
   EXPECT_LT(5.0 * known.tally.part(0.5), unknown.tally.part(0.5));
 }
@@ -127,8 +127,8 @@ LocalizationResult claimed_at(const Vector3d& p_WT) {
   return result;
 }
 
-/// Bends of a quarter of a radian leave twice the noise of neighbours, 0.1 rad, though 98 % of the
-/// waves add up: a wire would be made of them.
+/// Phase biases of a quarter of a radian leave twice the noise of neighbours, 0.1 rad, though 98 %
+/// of the phasors add up: without the check a wire would be fitted to them.
 TEST(CircularPolarization, NoWireIsLearntFromPhasesThatAreBent) {
   const Vector3d p_WT(3.0, 2.0, 0.8);
   for (const double bend_rad : {0.0, 0.25}) {

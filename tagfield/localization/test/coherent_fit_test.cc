@@ -24,7 +24,7 @@ double von_mises_concentration(double share) {
   return low;
 }
 
-/// |S| by plain complex numbers.
+/// |S| computed directly with complex numbers.
 double waves_at(const std::vector<PhaseSample>& samples, const Eigen::Vector3d& p_WT) {
   std::complex<double> sum = 0.0;
   for (const PhaseSample& s : samples) {
@@ -34,8 +34,9 @@ double waves_at(const std::vector<PhaseSample>& samples, const Eigen::Vector3d& 
   return std::abs(sum);
 }
 
-/// A hundred reads along a third of a circle, with noise of 1.1 rad up and down in turn, so that
-/// 45 % of the waves add up. Further off is less likely; by κ ΔS, as the reads are independent.
+/// A hundred reads along a third of a circle, with phase errors of alternately ±1.1 rad, so that 45
+/// % of the phasors add up. Positions further away are less likely, by κ ΔS, as the reads are
+/// independent.
 TEST(CoherentFit, NoisyTagsHaveTheOtherPlacesThatAreAsLikelyButForE4) {
   constexpr int kReads = 100;
   const double noise_rad = std::acos(0.45);
@@ -60,7 +61,7 @@ TEST(CoherentFit, NoisyTagsHaveTheOtherPlacesThatAreAsLikelyButForE4) {
   const HeightModel height = height_model(problem, "t", phases);
   CoherentJudgement judgement;
   judgement.climb = false;
-  std::vector<PlaceVector> places;
+  std::vector<PositionVector> places;
   for (const Eigen::Vector3d& place : {unlikely, p_WT, likely}) {
     places.push_back(to_unknowns(height, place));
   }

@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// Amid reflections of walls and floor.
+/// A hall with reflections from walls and floor.
 made::Hall reflecting_hall(unsigned seed, double late_s, const made::Noise& noise = {}) {
   made::Rng rng(seed);
   const made::Path path = made::aisles(0.03);  // At 0.45 m/s.
@@ -36,7 +36,7 @@ int claims(const LocalizationResult& result) {
   return count;
 }
 
-/// More than five times further off than expected.
+/// Number of tags off by more than five expected errors.
 int false_claims(const LocalizationResult& result, const made::Hall& hall) {
   int count = 0;
   for (const TagEstimate& estimate : result.estimates) {
@@ -61,7 +61,7 @@ TEST(CommonLatency, OfLateReadsNoPlaceIsClaimedAmidReflections) {
       after += false_claims(result, hall);
     }
   }
-  EXPECT_GE(before, 20);  // Of 128 tags: so many would be claimed without it.
+  EXPECT_GE(before, 20);  // Of 128 tags: false claims without the check.
   EXPECT_LT(10 * after, before);
 }
 

@@ -18,7 +18,7 @@ Eigen::Vector3d anywhere(Rng& rng, double reach, double low, double high) {
   return {uniform(rng, -reach, reach), uniform(rng, -reach, reach), uniform(rng, low, high)};
 }
 
-/// The conic of a tag at `p` and antenna places AP_0, AP_1.
+/// The conic of a tag at `p` and antenna positions AP_0, AP_1.
 Conic through(const Eigen::Vector3d& p, const Eigen::Vector3d& AP0, const Eigen::Vector3d& AP1) {
   return {AP0, AP1 - AP0, (p - AP1).norm() - (p - AP0).norm()};
 }
@@ -29,7 +29,7 @@ double nearest(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector3d
   return best;
 }
 
-/// Sum of both misfits, searched on a grid that is refined around its best cell: the slow way.
+/// Brute-force minimum of the sum of both misfits, on a grid that is refined around its best cell.
 Eigen::Vector2d brute_force(const Conic& a, const Conic& b, double z, Eigen::Vector2d centre,
                             double reach) {
   const auto misfits = [&](const Eigen::Vector2d& p) {
@@ -49,7 +49,7 @@ Eigen::Vector2d brute_force(const Conic& a, const Conic& b, double z, Eigen::Vec
   return centre;
 }
 
-/// Well away from a singular crossing, where a digit of input is a digit of output.
+/// Whether the crossing is far from singular, so that the result is about as accurate as the input.
 bool crosses_well(const Conic& a, const Conic& b, const Eigen::Vector3d& p, double least = 1e-3) {
   const auto slope = [&](const Conic& conic) -> Eigen::Vector2d {
     const Eigen::Vector3d far = p - conic.focus - conic.baseline;
@@ -114,7 +114,7 @@ TEST(Conic, OnAStraightPathGivesBothMirrorImages) {
 }
 
 TEST(Conic, ALittleNoiseAtADoubleRootLosesNoPoint) {
-  // A tag on the line through the antenna's places, a millimetre of noise outwards.
+  // A tag on the line through the antenna's positions, with a millimetre of noise outwards.
   const Eigen::Vector3d focus(0.0, 0.0, 0.0);
   std::vector<Eigen::Vector2d> points;
   intersect_common_focus({focus, {1.0, 0.0, 0.0}, -0.2}, {focus, {2.0, 0.0, 0.0}, 0.801}, 0.0,
@@ -179,7 +179,7 @@ TEST(TracedConic, OfOtherFociMeetsInTheTag) {
     if (nearest(points, p) < 1e-6) ++found;
   }
   EXPECT_GT(tried, 200);
-  // Two crossings between two points of the trace can go unseen.
+  // Two crossings between two points of the trace can be missed.
   EXPECT_GE(found, tried * 98 / 100);
 }
 

@@ -30,9 +30,9 @@ TEST(Dah, LocatesToCentimetresOnACurvedPath) {
   EXPECT_LT(noisy.mean(), 0.06);
 }
 
-// Nothing in the method was set by errors, so its stated ones are held to both sides. The root of
-// the mean square of 40 ratios of two coordinates each strays by 8 % (1 σ), and errors are not
-// normal.
+// Nothing in the method was tuned by its errors, so the expected errors are tested in both
+// directions. The rms of 40 ratios of two coordinates each has a standard deviation of 8 %, and
+// errors are not normal.
 TEST(Dah, ErrsAsItSays) {
   Study study;
   study.seeds = 4;
@@ -67,7 +67,8 @@ TEST(Dah, AStraightPathLeavesTheMirrorImage) {
   EXPECT_EQ(tally.ambiguous_with_truth, 20);
 }
 
-/// The definition, in double precision with the C library's functions, for one reference.
+/// Compared with the definition, in double precision with the C library's functions, for one
+/// reference.
 RC_GTEST_PROP(Dah, BrightnessIsThatOfTheDefinition, ()) {
   Rng rng(*rc::gen::arbitrary<std::uint32_t>());
   Path path = s_curve(0.9, 0.03);

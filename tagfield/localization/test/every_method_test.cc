@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What holds for every method that comes with Tagfield.
+/// Tests of what holds for every method that comes with Tagfield.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -27,15 +27,14 @@ bool is_finite(const TagEstimate& estimate) {
       });
 }
 
-/// RSSI as of an isotropic tag, in whole dB.
+/// Sets RSSI as of an isotropic tag, in whole dB.
 void give_rssi(const Eigen::Vector3d& p_WT, std::vector<PhaseSample>& samples) {
   for (PhaseSample& s : samples) {
     s.rssi_dbm = std::round(-30.0 - 40.0 * std::log10((p_WT - s.p_WA).norm()));
   }
 }
 
-/// Each antenna was believed to be where its samples say; one that is not in several places at
-/// once.
+/// Sets the track of each antenna from its samples, with one position per stamp.
 void give_tracks(LocalizationProblem& problem) {
   std::map<std::string, std::map<Time, Eigen::Vector3d>> places;
   for (const auto& [tag, of_tag] : problem.samples) {
@@ -50,7 +49,7 @@ void give_tracks(LocalizationProblem& problem) {
   }
 }
 
-/// Several tags, some of them odd, and one reference tag.
+/// Several tags, some of them unusual, and one reference tag.
 LocalizationProblem mixed_problem() {
   Rng rng(77);
   const Path path = aisles(0.04);
@@ -98,7 +97,7 @@ TEST(EveryMethod, AnswersForEachTagInOrderWithoutInfinities) {
   }
 }
 
-/// The mixed problem with what a key of a scenario's `localization` says made another.
+/// The mixed problem with the input of one key of a scenario's `localization` changed.
 LocalizationProblem changed_problem(const std::string& key) {
   LocalizationProblem problem = mixed_problem();
   if (key == "offset") problem.offset_known = {"a", "b", "c", "d", "s"};
@@ -118,7 +117,7 @@ LocalizationProblem changed_problem(const std::string& key) {
   return problem;
 }
 
-/// All that it found, as text.
+/// The method's complete result as text.
 std::string told(const Method& method, const LocalizationProblem& problem) {
   Diagnostics diagnostics;
   std::string text;
@@ -136,7 +135,7 @@ TEST(EveryMethod, FindsTheSameWhateverIsKnownOfWhatItIgnores) {
   std::map<std::string, int> uses;
   const LocalizationProblem problem = mixed_problem();
   for (const Method& method : methods()) {
-    if (method.name == "auto") continue;  // The one that it chooses ignores what it ignores.
+    if (method.name == "auto") continue;  // It ignores what the chosen method ignores.
     const std::string usual = told(method, problem);
     for (const char* const key :
          {"offset", "half_turns", "pose_error", "max_expected_error_m", "max_rms_m"}) {
@@ -148,7 +147,7 @@ TEST(EveryMethod, FindsTheSameWhateverIsKnownOfWhatItIgnores) {
       }
     }
   }
-  // What no method ignored would not have been looked at.
+  // Each change must affect the result of at least two methods, otherwise it tests nothing.
   for (const auto& [key, count] : uses) EXPECT_GE(count, 2) << key;
 }
 
@@ -183,7 +182,7 @@ TEST(EveryMethod, SaysTheSameOnAnyNumberOfThreads) {
   }
 }
 
-/// Whatever the reads: places at random, phases of nothing.
+/// For arbitrary reads: random positions, random phases.
 RC_GTEST_PROP(EveryMethod, NothingMakesAMethodThrowOrGiveWhatIsNotANumber, ()) {
   Rng rng(*rc::gen::arbitrary<std::uint32_t>());
   const int count = *rc::gen::inRange(0, 60);

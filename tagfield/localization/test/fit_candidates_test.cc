@@ -34,7 +34,7 @@ TEST(HonestCovariance, IsThatOfAllPairsOfReads) {
   const Eigen::Matrix2d found =
       honest_covariance(of.phases, of.height, of.fit).topLeftCorner<2, 2>();
   // The least-squares estimate is A y with A = (JᵀJ)⁻¹ Jᵀ, so its covariance is A R Aᵀ with the
-  // whole covariance R of the ranges.
+  // full covariance R of the ranges.
   const Eigen::Index n = of.phases.size();
   Eigen::MatrixXd J(n, 2);
   Eigen::MatrixXd u(n, 2);
@@ -54,7 +54,7 @@ TEST(HonestCovariance, IsThatOfAllPairsOfReads) {
   }
   const Eigen::MatrixXd A = (J.transpose() * J).inverse() * J.transpose();
   const Eigen::Matrix2d expected = A * R * A.transpose();
-  // The phase noise is estimated, to a few per cent.
+  // The phase noise is estimated to within a few per cent.
   EXPECT_LT((found - expected).norm(), 0.02 * expected.norm());
 }
 
@@ -67,7 +67,7 @@ TEST(NeighbourDifferences, TellTheNoiseUnderSlowErrors) {
   const made::Hall hall = made::hall(made::s_curve(20.0, 0.02), 1, noise, rng);
   const Fitted of = fitted(hall);
   const auto errors = residuals_of(of.phases, of.height, of.fit);
-  // 3 cm of error would be over a radian.
+  // Errors of 3 cm would be over a radian.
   EXPECT_NEAR(noise_of_differences(neighbour_differences(of.phases, errors)), 0.2, 0.04);
 }
 
@@ -81,7 +81,7 @@ TEST(SpreadStarts, LieAlongTheWeakDirection) {
   const auto starts = spread_starts(of.phases, of.height, of.fit, covariance);
   ASSERT_GT(starts.size(), 2U);
   EXPECT_TRUE(starts.front() == of.fit.unknowns);
-  for (const PlaceVector& start : starts) {
+  for (const PositionVector& start : starts) {
     EXPECT_NEAR(start.y(), of.fit.unknowns.y(), 1e-9);
     EXPECT_LE(std::abs(start.x() - of.fit.unknowns.x()), 0.9 + 1e-9);
   }

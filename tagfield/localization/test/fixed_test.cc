@@ -38,8 +38,8 @@ double carrier(int channel) { return 902.75e6 + 0.5e6 * channel; }
 
 using Places = std::map<std::string, Eigen::Vector3d>;
 
-/// Four antennas in the corners read tags on 50 channels twice; each port's channels have offsets
-/// of their own. Nothing is told of where tags can be.
+/// Four antennas in the corners read tags on 50 channels twice; each channel of each port has its
+/// own offset. No tag area is given.
 Room room_with(const Places& truth, const RoomNoise& noise, Rng& rng) {
   Room made;
   made.truth = truth;
@@ -67,7 +67,7 @@ Room room_with(const Places& truth, const RoomNoise& noise, Rng& rng) {
   return made;
 }
 
-/// Of tags within the corners.
+/// A room with tags between the corners.
 Room room(int tags, const RoomNoise& noise, Rng& rng) {
   Places truth;
   for (int i = 0; i < tags; ++i) {
@@ -98,8 +98,9 @@ double calibration_of(const Tally& tally) {
   return std::sqrt(tally.square_ratios / static_cast<double>(tally.errors.size()));
 }
 
-/// Variance of a place by the slopes of phases over channels, in closed form: a line's slope of n
-/// points about their mean, one reference tag as noisy as the tag; strengths say nothing beside it.
+/// Variance of a position from the slopes of phase over frequency, in closed form: the slope of a
+/// line through n points about their mean, with one reference tag as noisy as the tag. RSSI adds
+/// nothing to it.
 double bound(const Eigen::Vector3d& p_WT, double sigma_rad, int reads) {
   double mean = 0.0;
   double squares = 0.0;
@@ -131,7 +132,8 @@ TEST(Fixed, MeetsTheBoundOfPhasesOverChannelsWithOneReferenceTag) {
     squares += std::pow(level_error(estimate.candidates.front(), p_WT), 2);
     bounds += bound(p_WT, 0.1, 2);
   }
-  // The reference's own noise is in all errors, so they scatter more than 60 coordinates would.
+  // The reference's noise is common to all errors, so they scatter more than 60 independent
+  // coordinates.
   EXPECT_GT(std::sqrt(squares / bounds), 0.6);
   EXPECT_LT(std::sqrt(squares / bounds), 1.4);
   EXPECT_LT(calibration_of(tally_of(made, result)), 1.6);
@@ -231,8 +233,8 @@ TEST(Fixed, SwappedAntennasAreRefusedAndNamed) {
   }
 }
 
-// Of neighbours exchanged in a square half of the order is still right, so that a law of distance
-// mostly holds nevertheless.
+// If neighbours in a square are exchanged, half of the order is still right, so a path-loss law
+// mostly still holds.
 TEST(Fixed, SwappedAntennasAreFoundThoughALawHolds) {
   Rng rng(11);
   int located_tags = 0;
@@ -286,7 +288,7 @@ TEST(Fixed, ChannelsToldInAnotherOrderAreFoundOut) {
   EXPECT_FALSE(is_out_of_order(reads_of(room(4, {}, rng))));  // Too few tags to tell.
 }
 
-/// By the definition of a beam's width: half the power, there and back a quarter.
+/// By the definition of the beam width: half the power one way, a quarter there and back.
 TEST(Lobe, HalfAWidthOffItsBoresightIsHalfThePower) {
   Lobe lobe;
   lobe.beam_width_deg = 70.0;
@@ -297,7 +299,7 @@ TEST(Lobe, HalfAWidthOffItsBoresightIsHalfThePower) {
   EXPECT_EQ(lobe_db({}, Eigen::Vector3d::UnitX(), off), 0.0);
 }
 
-/// Lobes that are known are taken out; where they are not, the same strengths mislead.
+/// Known antenna lobes are compensated; if they are not known, the same RSSI values mislead.
 TEST(Fixed, KnownLobesAreTakenOut) {
   Rng rng(9);
   Room made = room(20, {0.1, 0.5, 40.0, 0.0}, rng);

@@ -16,7 +16,8 @@ namespace {
 using made::Rng;
 using made::uniform;
 
-/// Hills of light, each lower than the one before, and ripples that no glance tells from them.
+/// Peaks of brightness, each lower than the previous one, and ripples that a glance can't
+/// distinguish from them.
 struct Hills {
   std::vector<Eigen::Vector2d> tops;
   double ripple = 0.0;
@@ -34,7 +35,7 @@ struct Hills {
   }
 };
 
-/// Some, at least 1 m from each other, within 4 m.
+/// Random peaks at least 1 m apart, within 4 m.
 Hills some_hills(Rng& rng, std::size_t count) {
   Hills hills;
   while (hills.tops.size() < count) {
@@ -47,7 +48,7 @@ Hills some_hills(Rng& rng, std::size_t count) {
   return hills;
 }
 
-/// What counts the places that are looked at.
+/// A level that counts the positions evaluated.
 GridLevel level_of(const Hills& hills, double phase, std::size_t& looks) {
   return [&hills, phase, &looks](const Tile& x, const Tile& y) {
     looks += kTile;
@@ -70,7 +71,7 @@ TEST(GridSearch, WithGlancesFindsTheSameHillsAndLooksAtAHundredthOfTheCells) {
   Rng rng(7);
   const PlaneInReach in_reach = circle_of_4_m();
   const Grid grid{Eigen::Vector2d::Zero(), 0.02, 4.0};
-  const auto cells = static_cast<double>(126'000);  // π 4²/0.02², of which reach 4 m.
+  const auto cells = static_cast<double>(126'000);  // π 4²/0.02², those within 4 m.
   for (int round = 0; round < 5; ++round) {
     Hills hills = some_hills(rng, 3);
     hills.ripple = 0.2;
@@ -80,7 +81,7 @@ TEST(GridSearch, WithGlancesFindsTheSameHillsAndLooksAtAHundredthOfTheCells) {
     const std::vector<GridLevel> levels{level_of(hills, 0.0, first), level_of(hills, 0.0, finest)};
     const std::vector<GridMaximum> all = search_grid(grid, in_reach, levels, 3);
     EXPECT_NEAR(static_cast<double>(first), cells, 0.01 * cells);
-    GridGlances glances;
+    GridPreselection glances;
     glances.at_blocks = [&](const CellBlock& block) {
       BlockLight light;
       for (Eigen::Index j = 0; j < kBlock; ++j) {
@@ -100,19 +101,19 @@ TEST(GridSearch, WithGlancesFindsTheSameHillsAndLooksAtAHundredthOfTheCells) {
     EXPECT_NEAR(static_cast<double>(first), 0.01 * cells, 0.002 * cells);
     ASSERT_EQ(found.size(), all.size());
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].p, all[i].p);
-    // Ripples of 20 cm shift a top by less than half of that.
+    // Ripples of 20 cm shift a peak by less than half of that.
     EXPECT_LT((found.front().p - hills.tops.front()).norm(), 0.1);
   }
 }
 
-/// A grid of few cells keeps as many as are split.
+/// A small grid keeps as many cells as are split.
 TEST(GridSearch, AGlanceLeavesEnoughCellsToBeSplit) {
   const PlaneInReach in_reach = circle_of_4_m();
   Hills hills;
   hills.tops = {{1.0, 0.5}};
   std::size_t first = 0;
   std::size_t glanced = 0;
-  GridGlances glances;
+  GridPreselection glances;
   glances.at_blocks = [](const CellBlock&) { return BlockLight::Ones(); };
   glances.at_cells = level_of(hills, 0.0, glanced);
   const auto found = search_grid({Eigen::Vector2d::Zero(), 0.4, 4.0}, in_reach,
@@ -122,14 +123,14 @@ TEST(GridSearch, AGlanceLeavesEnoughCellsToBeSplit) {
   EXPECT_LT((found.front().p - hills.tops.front()).norm(), 0.4);
 }
 
-/// Where no place has light, no cell is left out for it.
+/// If brightness is 0 everywhere, no cell is discarded.
 TEST(GridSearch, AGlanceAtTheDarkLeavesAllCells) {
   std::size_t first = 0;
   const GridLevel dark = [&](const Tile&, const Tile&) {
     first += kTile;
     return Tile(Tile::Zero());
   };
-  GridGlances glances;
+  GridPreselection glances;
   glances.at_blocks = [](const CellBlock&) { return BlockLight(BlockLight::Constant(-1.0f)); };
   glances.at_cells = dark;
   const auto found =

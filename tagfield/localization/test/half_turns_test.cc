@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFrequency = 865.7e6;
 
-/// Reads of an antenna that passes a tag in steps of `step_m`.
+/// Reads by an antenna that passes a tag in steps of `step_m`.
 SamplesByTag passing(double step_m, double noise_rad, bool half_turns, std::uint64_t seed) {
   SamplesByTag samples;
   RandomStream stream(seed, Purpose::kReadNoise);

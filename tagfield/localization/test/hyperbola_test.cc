@@ -38,7 +38,8 @@ TEST(Hyperbola, MeetsTheContractAboveTheAntenna) {
   EXPECT_LT(tally.errors.back(), 0.1);
 }
 
-// Tags 5 to 60 cm above the plane that is a guess: places are off by centimetres, and say so.
+// Tags 5 to 60 cm above the assumed plane: positions are off by centimetres, and so are the
+// expected errors.
 TEST(Hyperbola, ErrsAsItSaysWhereTheHeightIsUnknown) {
   Study study;
   study.seeds = 8;

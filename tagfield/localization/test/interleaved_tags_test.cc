@@ -15,12 +15,12 @@ using made::Rng;
 
 constexpr int kPairs = 12;
 constexpr std::size_t kReads = 400;  ///< Along 8 m, every 2 cm.
-constexpr double kOff = 0.15;        ///< Of claimed places, along each axis [m].
+constexpr double kOff = 0.15;        ///< Error of claimed positions along each axis [m].
 
 std::string tag_name(int i) { return "t" + std::to_string(i); }
 
-/// Each tag of even number gets so large a share of the reads of the next one, which is left out,
-/// as are pairs that were not both read all along the path.
+/// Replaces a share of the reads of each even-numbered tag by those of the next one, which is
+/// removed. Removes pairs of which one was not read along the whole path.
 void give_one_name_to_two(made::Hall& hall, double share, Rng& rng) {
   for (int i = 0; i < 2 * kPairs; i += 2) {
     std::vector<PhaseSample>& mixed = hall.problem.samples[tag_name(i)]["a"];
@@ -36,7 +36,7 @@ void give_one_name_to_two(made::Hall& hall, double share, Rng& rng) {
   }
 }
 
-/// Places that a method by signal strength could give.
+/// Positions that a method by RSSI could give.
 LocalizationResult claimed(const made::Hall& hall, Rng& rng) {
   LocalizationResult result;
   for (const auto& [tag, samples] : hall.problem.samples) {
@@ -68,7 +68,8 @@ made::Hall reflecting_hall(const made::Noise& noise, Rng& rng) {
   return hall;
 }
 
-// Amid reflections, where no place explains all phases, and though places are decimetres off.
+// Amid reflections, where no position explains all phases, and although positions are decimetres
+// off.
 TEST(InterleavedTags, TwoTagsUnderOneNameAreRefused) {
   for (const double share : {0.3, 0.4, 0.5}) {
     Rng rng(1);
@@ -106,7 +107,8 @@ TEST(InterleavedTags, OutliersAndPhasesOfAnyValueAreNoSecondTag) {
   }
 }
 
-// By brute force, of angles alone: a triple is lone if one of its reads is far from both others.
+// Compared with brute force on angles alone: a triple has a lone read if one read is far from both
+// others.
 TEST(InterleavedTags, NoiseMakesAsManyLoneReadsAsDrawnAnglesDo) {
   Rng rng(4);
   for (const double sigma : {0.1, 0.6}) {

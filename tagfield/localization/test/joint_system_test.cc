@@ -12,7 +12,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Two antennas on one body that turns, so that the yaw's error shows.
+/// Two antennas on one rotating body, so that the yaw error is observable.
 made::Hall two_antennas(unsigned seed, int tags) {
   made::Rng rng(seed);
   const made::Path path = made::s_curve(6.0, 0.06);
@@ -57,7 +57,7 @@ JointSystem system_of(const made::Hall& hall, double spacing_s) {
   return system;
 }
 
-/// All unknowns in one vector: tags' places and offsets, then u.
+/// All unknowns in one vector: tags' positions and offsets, then u.
 Eigen::VectorXd unknowns_of(const JointSystem& system) {
   std::vector<double> all;
   for (const JointTag& tag : system.tags) {
@@ -78,8 +78,8 @@ void set_unknowns(JointSystem& system, const Eigen::VectorXd& all) {
   system.u = all.tail(system.u.size());
 }
 
-/// Half the second derivative of the cost, by differences. With residuals near 0 that is the normal
-/// matrix.
+/// Half the second derivative of the cost, by finite differences. With residuals near 0 that is the
+/// normal matrix.
 Eigen::MatrixXd curvature(JointSystem system) {
   constexpr double kStep = 2e-4;
   const Eigen::VectorXd at = unknowns_of(system);
@@ -133,14 +133,14 @@ TEST(JointSystem, CovarianceIsTheInverseOfTheCostsCurvature) {
 }
 
 TEST(JointSystem, BothOrdersOfEliminationGiveTheSame) {
-  // Few knots and many tags are solved for the knots, many knots and few tags for the tags.
+  // Few knots and many tags are reduced to the knots, many knots and few tags to the tags.
   made::Hall hall = two_antennas(3, 12);
   const double coarse = 5.0;
   const JointSystem by_knots = system_of(hall, coarse);
   EXPECT_EQ(covariance_of(by_knots, 1).of_all.size(), 0);
   EXPECT_TRUE(eliminates_knots_first(3000, 4, 9e9));
-  // The same tags one by one on the same knots, each with all others' information as weight 0, must
-  // agree with the whole when only one tag counts.
+  // A tag alone on the same knots must agree with the whole system if all other tags have a
+  // negligible weight.
   JointSystem one = by_knots;
   for (std::size_t i = 1; i < one.tags.size(); ++i) one.tags[i].weight = 1e-12;
   JointSystem alone = by_knots;
@@ -154,7 +154,7 @@ TEST(JointSystem, FindsTheMinimumWhereAllIsKnown) {
   JointSystem system = system_of(two_antennas(4, 3), 1.0);
   remove_noise(system);
   const Eigen::VectorXd truth = unknowns_of(system);
-  for (JointTag& tag : system.tags) tag.fit.unknowns += PlaceVector(0.01, -0.01, 0.0);
+  for (JointTag& tag : system.tags) tag.fit.unknowns += PositionVector(0.01, -0.01, 0.0);
   EXPECT_LT(minimize(system, 30, 2), 1e-6);
   EXPECT_LT((unknowns_of(system) - truth).cwiseAbs().maxCoeff(), 1e-4);
 }

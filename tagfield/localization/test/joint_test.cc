@@ -43,7 +43,7 @@ LocalizationResult run(const Method& method, const LocalizationProblem& problem)
   return method.locate(problem, 2, diagnostics);
 }
 
-/// Mean error that the bound leaves, over all tags.
+/// Mean error at the bound, over all tags.
 double bound_of(const made::Hall& hall, const made::Path& path, double phase_noise) {
   BoundInput input;
   input.truth = hall.problem;
@@ -92,7 +92,7 @@ TEST(Joint, IsNearTheBoundWithPoseErrors) {
   of.noise.pose_m = 0.02;
   const Outcome outcome = outcome_of(of);
   EXPECT_EQ(outcome.joint.not_located, 0U);
-  // Errors of a run are correlated: the mean of 12 runs strays by a tenth or so.
+  // Errors of a run are correlated: the mean of 12 runs has a standard deviation of about a tenth.
   EXPECT_LT(outcome.joint.mean(), 1.25 * outcome.bound);
   EXPECT_GT(outcome.joint.mean(), 0.75 * outcome.bound);
   EXPECT_GT(outcome.single.mean(), 2.0 * outcome.joint.mean());
@@ -126,7 +126,7 @@ TEST(Joint, APauseOfADayChangesEstimatesByLessThanTheirDeviation) {
   }
 }
 
-/// Errors of two halves are drawn apart, as those of two days.
+/// A hall whose pose errors are drawn separately for two halves of the path, as on two days.
 made::Hall hall_of_two_days(unsigned seed) {
   made::Noise noise;
   noise.pose_m = 0.02;
@@ -147,15 +147,16 @@ TEST(Joint, HasHonestCovariancesWithPausesInWhichThePoseErrorIsForgotten) {
     add(hall, run(joint_method(), hall.problem), errors);
   }
   EXPECT_EQ(errors.not_located, 0U);
-  // Expected 2; errors of a run are correlated, so that the mean of 12 runs strays by a fifth.
+  // Expected 2; errors of a run are correlated, so the mean of 12 runs has a standard deviation of
+  // a fifth.
   const double nees = errors.nees / static_cast<double>(errors.all.size());
   EXPECT_GT(nees, 1.2);
   EXPECT_LT(nees, 2.8);
 }
 
 TEST(Joint, GoesOnToAPlaceThatExplainsTheWrappedPhasesFarBetter) {
-  // Of 4,000 such halls those in which tags are at a place with six times the residuals of another
-  // once their phases are wrapped.
+  // Of 4,000 such halls, those in which tags are at a position with six times the residuals of
+  // another once their phases are wrapped.
   for (const unsigned seed : {2261U, 2358U, 2364U, 2542U}) {
     const made::Hall hall = hall_of_two_days(seed);
     Errors errors;
@@ -183,7 +184,7 @@ TEST(Joint, LearnsTheStrengthOfThePoseError) {
 TEST(Joint, ReferenceTagsFixTheWorld) {
   made::Noise noise;
   noise.pose_m = 0.03;
-  noise.pose_time = 1000.0;  // As good as a constant shift of the map.
+  noise.pose_time = 1000.0;  // Practically a constant shift of the map.
   Errors without;
   Errors with;
   for (unsigned seed = 1; seed <= 6; ++seed) {
@@ -220,13 +221,13 @@ TEST(Joint, SaysThatAStraightWayIsAmbiguous) {
   }
 }
 
-// Two straight aisles so far apart that each tag is read from one of them: nothing tells on which
-// side a tag is, though the way as a whole is bent.
+// Two straight aisles so far apart that each tag is read from only one of them: the side of a tag
+// can't be determined, though the path as a whole is bent.
 TEST(Joint, SaysThatEachOfSeveralAislesIsAmbiguous) {
   made::Noise noise;
   noise.pose_m = 0.03;
   made::Rng rng(11);
-  const double half_turn = 3.0 * kPi;  // Of 3 m radius.
+  const double half_turn = 3.0 * kPi;  // Arc length for a radius of 3 m.
   const made::Path path = made::follow(
       16.0 + half_turn, 0.02, [&](double s) { return std::clamp((s - 8.0) / 3.0, 0.0, kPi); });
   const made::Path beliefs = made::believed(path, noise, made::kPathRate, rng);

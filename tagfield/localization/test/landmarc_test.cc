@@ -48,7 +48,7 @@ TEST(Landmarc, LocatesBetweenItsNeighbours) {
     LocalizationProblem problem = room_with_references(rng);
     const Eigen::Vector3d p_WT(uniform(rng, 1.5, 4.5), uniform(rng, 1.5, 4.5), 1.0);
     problem.samples["a tag"] = read_in_room(p_WT, 1.0, rng);
-    tally.add(locate_one(landmarc_method({}), problem), p_WT);  // The first in rising order.
+    tally.add(locate_one(landmarc_method({}), problem), p_WT);  // The first in ascending order.
   }
   tally.finish();
   EXPECT_EQ(tally.errors.size(), 20u);
@@ -105,7 +105,9 @@ TEST(Landmarc, StrengthsThatDoNotGoByPlaceLocateNothing) {
     }
     if (locate_one(landmarc_method({}), problem).verdict == Verdict::kLocated) ++located;
   }
-  EXPECT_LE(located, 5);  // One of a hundred by chance; Poisson's law has over 5 in 6 of 10⁴.
+  // One in a hundred by chance; in a Poisson distribution more than 5 have a probability of 6 in
+  // 10⁴.
+  EXPECT_LE(located, 5);
 }
 
 TEST(Landmarc, ReadsWithoutRssiAreNotCounted) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads made for the tests of this room, by no code of the simulator: eq. (3) of the paper with
-/// normal phase noise, a perturbed range, and a path of a few shapes.
+/// Synthetic reads for the tests of this module, made without any code of the simulator: eq. (3) of
+/// the paper with normal phase noise, a perturbed range, and paths of a few shapes.
 #pragma once
 
 #include <algorithm>
@@ -73,12 +73,12 @@ inline Path aisles(double step) {
 struct Noise {
   double phase_rad = 0.1;
   double range_sigma = 0.05;
-  double lost = 0.0;       ///< Part of the reads lost at random.
+  double lost = 0.0;       ///< Share of the reads lost at random.
   double pose_m = 0.0;     ///< Ornstein-Uhlenbeck error of the believed pose, per axis.
   double pose_time = 5.0;  ///< Its time constant [s]; 0: independent from read to read.
 };
 
-/// What the reader believes of the path.
+/// The path as believed by the reader.
 inline Path believed(const Path& path, const Noise& noise, double rate_hz, Rng& rng) {
   Path beliefs = path;
   Eigen::Vector3d error(normal(rng, noise.pose_m), normal(rng, noise.pose_m), 0.0);
@@ -123,7 +123,7 @@ inline std::vector<PhaseSample> read_along(const Path& path, const Eigen::Vector
   return read_along(path, believed(path, noise, 15.0, rng), p_WT, noise, rng);
 }
 
-/// A place `away` [m] to the side of a random point of the path, at height z.
+/// A position `away` [m] to the side of a random point of the path, at height z.
 inline Eigen::Vector3d beside(const Path& path, double away, double z, Rng& rng) {
   const auto last = static_cast<double>(path.size() - 2);
   const auto i = static_cast<std::size_t>(uniform(rng, 0.0, last));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads by which holograms search, made up, for the tests of sums of waves.
+/// Synthetic reads of a hologram search, for the tests of phasor sums.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace tagfield::made {
 
 inline float some(Rng& rng, double most) { return static_cast<float>(uniform(rng, -most, most)); }
 
-/// Some up to `most`, of antennas within 9 m of the middle, at 866 MHz.
+/// 1 to `most` random reads, of antennas within 9 m of the middle, at 866 MHz.
 inline std::vector<SearchRead> search_reads(Rng& rng, std::size_t most) {
   std::vector<SearchRead> reads(1 + rng() % most);
   for (SearchRead& read : reads) {
@@ -25,7 +25,7 @@ inline std::vector<SearchRead> search_reads(Rng& rng, std::size_t most) {
   return reads;
 }
 
-/// The same reads as apertures of one to nine, of which some have a known offset.
+/// The reads divided into apertures of one to nine, of which some have a known offset.
 inline SearchReads with_apertures(Rng& rng, std::vector<SearchRead> reads) {
   SearchReads all;
   all.reads = std::move(reads);
@@ -37,7 +37,7 @@ inline SearchReads with_apertures(Rng& rng, std::vector<SearchRead> reads) {
   return all;
 }
 
-/// What an aperture adds to a place's amplitude.
+/// Contribution of an aperture to the amplitude at a position.
 inline float amplitude(const Aperture& aperture, float in_phase, float quadrature) {
   if (aperture.offset_known) return in_phase;
   return std::sqrt(in_phase * in_phase + quadrature * quadrature);

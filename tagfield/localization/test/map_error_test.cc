@@ -34,8 +34,8 @@ LocalizationResult located_at(const Eigen::Vector3d& place, double sigma_m) {
   return result;
 }
 
-// Against a thousand maps that are shifted and turned, and places that err by themselves: the mean
-// of squares of a thousand is within 5 of its deviations, √(2/1000), so within a quarter.
+// Compared with a thousand shifted and rotated maps, with independent position errors: the mean
+// square of a thousand is within 5 standard deviations √(2/1000), so within a quarter.
 TEST(MapError, IsAsFarAsMapsThatAreShiftedAndTurnedTakeAPlace) {
   const Eigen::Vector3d place(6.0, 5.0, 1.0);
   LocalizationResult result = located_at(place, 0.005);

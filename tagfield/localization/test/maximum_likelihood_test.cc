@@ -24,11 +24,12 @@ struct Sums {
 struct Setting {
   made::Noise noise;
   bool offset_known = false;
-  std::optional<double> height;  ///< Of the tags; none: the antenna's, and known.
+  /// Height of the tags; if nullopt, that of the antenna, and known.
+  std::optional<double> height;
   unsigned seeds = 12;
 };
 
-/// Ratio of the mean error to that at the bound, over 8 tags a seed on a path of two aisles.
+/// Sums of errors and bounds, over 8 tags per seed on a path of two aisles.
 Sums sums_of(const Method& method, const Setting& setting) {
   Sums sums;
   for (unsigned seed = 1; seed <= setting.seeds; ++seed) {
@@ -61,7 +62,7 @@ Sums sums_of(const Method& method, const Setting& setting) {
   return sums;
 }
 
-// 96 tags: the mean ratio strays by 0.08 or so (one deviation).
+// With 96 tags the mean ratio has a standard deviation of about 0.08.
 
 TEST(MaximumLikelihood, MeetsTheBound) {
   const Sums sums = sums_of(maximum_likelihood_method(), {});
@@ -102,7 +103,7 @@ TEST(MaximumLikelihood, MeetsItWithUnknownHeight) {
 TEST(LeastSquares, MeetsTheBoundWhereThePhaseIsWhole) {
   const Sums sums = sums_of(least_squares_method(), {});
   EXPECT_EQ(sums.others, 0);
-  // Segments at the sporadic edge of the range have offsets of their own, which costs a little.
+  // Segments at the sporadic edge of the range have their own offsets, which costs a little.
   EXPECT_LT(sums.error, 1.5 * sums.bound);
 }
 
@@ -110,7 +111,7 @@ TEST(MaximumLikelihood, UsesAKnownOffset) {
   made::Rng rng(2);
   const made::Path path = made::aisles(0.02);
   made::Hall hall = made::hall(path, path, 6, {}, rng);
-  // Made reads have a random offset: that of the truth is taken out.
+  // Synthetic reads have a random offset: it is removed, given the true positions.
   for (auto& [tag, samples] : hall.problem.samples) {
     const TagPhases phases = wrapped_phases(hall.problem, samples, {"a"});
     const HeightModel height = height_model(hall.problem, tag, phases);

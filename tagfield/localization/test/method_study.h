@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Statistics of a method's errors over many made tags, for the tests of any method.
+/// Statistics of a method's errors over many synthetic tags, for the tests of any method.
 #pragma once
 
 #include <algorithm>
@@ -27,13 +27,13 @@ inline double nearest(const TagEstimate& estimate, const Eigen::Vector3d& p_WT) 
   return best;
 }
 
-/// What the method says of the one tag "t" of a problem.
+/// The method's estimate of the single tag "t" of a problem.
 inline TagEstimate locate_one(const Method& method, const LocalizationProblem& problem) {
   Diagnostics diagnostics;
   return method.locate(problem, 1, diagnostics).estimates.at(0);
 }
 
-/// A problem of one tag "t" at a known height.
+/// A problem with one tag "t" at a known height.
 inline LocalizationProblem one_tag(const SamplesOfTag& samples, double height) {
   LocalizationProblem problem;
   problem.samples["t"] = samples;
@@ -43,11 +43,11 @@ inline LocalizationProblem one_tag(const SamplesOfTag& samples, double height) {
 
 /// Verdicts and errors over many tags.
 struct Tally {
-  std::vector<double> errors;         ///< Of those located, horizontally [m]; sorted by finish().
-  std::vector<double> height_errors;  ///< Likewise, vertically.
+  std::vector<double> errors;  ///< Horizontal errors of located tags [m]; sorted by finish().
+  std::vector<double> height_errors;  ///< Vertical errors [m].
   double square_ratios = 0.0;         ///< Σ (error/expected)².
   int ambiguous = 0;
-  int ambiguous_with_truth = 0;  ///< Some candidate within 0.1 m.
+  int ambiguous_with_truth = 0;  ///< Some candidate is within 0.1 m.
   int not_located = 0;
 
   void add(const TagEstimate& estimate, const Eigen::Vector3d& p_WT) {
@@ -79,7 +79,7 @@ struct Tally {
     return static_cast<std::size_t>(
         std::count_if(errors.begin(), errors.end(), [=](double error) { return error > limit; }));
   }
-  /// Root mean square of error/expected, 1 where the expected errors are right.
+  /// Root mean square of error/expected; 1 if the expected errors are right.
   [[nodiscard]] double calibration() const {
     return std::sqrt(square_ratios / static_cast<double>(errors.size()));
   }
@@ -90,20 +90,19 @@ using MakePath = std::function<Path(Rng&)>;
 struct Study {
   int seeds = 30;
   Noise noise;
-  double nearest = 1.0;  ///< Tags beside the path, from ... to [m].
+  double nearest = 1.0;  ///< Distance of tags from the path, from ... to [m].
   double farthest = 4.0;
   double lowest = 0.4;  ///< Their heights, from ... to [m]; the antenna is at 0.4 m.
   double highest = 0.4;
-  bool height_known = true;  ///< Else it is estimated, above the antenna.
+  bool height_known = true;  ///< Otherwise it is estimated, above the antenna.
   bool offset_known = false;
-  /// Each read gets one of so many carriers, 600 kHz apart, with an offset each, in turns of
-  /// `dwell` reads.
+  /// Number of carriers, 600 kHz apart, with an offset each; they change every `dwell` reads.
   int channels = 1;
   std::size_t dwell = 30;
   int tags = 10;  ///< For each seed.
 };
 
-/// A phase offset for each channel, the carriers in turn.
+/// Cycles through the carriers, with a phase offset for each channel.
 inline void hop(const Study& study, Rng& rng, std::vector<PhaseSample>& samples,
                 const Eigen::Vector3d& p_WT, const Path& path, const Path& beliefs) {
   if (study.channels <= 1) return;

@@ -14,7 +14,7 @@ struct GuessOptions {
   double y_m = 2.0;
 };
 
-/// Says that all tags are where its options say.
+/// A method that locates all tags at the position in its options.
 Method guess() {
   using O = GuessOptions;
   const OptionTable<O> table{{setting<O>("x_m", "m", "east", &O::x_m, {-10.0, false, 10.0}),

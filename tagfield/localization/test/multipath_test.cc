@@ -42,7 +42,7 @@ std::vector<TracedReply> replies_of(const std::vector<Mirror>& mirrors, const Ei
   return replies;
 }
 
-/// Mirrors as `reflect()` has them, as a known world.
+/// The mirrors of `reflect()` as a known world.
 TraceReplies known(const std::vector<Mirror>& mirrors) {
   return [mirrors](const std::string& /*tag*/, const Eigen::Vector3d& p_WT,
                    const std::map<std::string, TracedFrom>& antennas) {
@@ -54,13 +54,13 @@ TraceReplies known(const std::vector<Mirror>& mirrors) {
 
 struct TracedStudy {
   double pose_m = 0.0;
-  double gain = 0.5;           ///< Of the walls.
-  double believed_gain = 0.5;  ///< Likewise.
+  double gain = 0.5;           ///< Reflection coefficient of the walls.
+  double believed_gain = 0.5;  ///< The believed one.
   bool half_turns = false;
-  bool pose_error_told = true;
-  double walls_off_m = 0.0;    ///< From where they are believed to be.
-  double world_sigma_m = 0.0;  ///< What is said of that.
-  double strays = 0.0;         ///< Share of reads with any phase.
+  bool pose_error_stated = true;
+  double walls_off_m = 0.0;    ///< Distance of the walls from their believed positions.
+  double world_sigma_m = 0.0;  ///< Stated standard deviation of that.
+  double strays = 0.0;         ///< Share of reads with a random phase.
 };
 
 std::vector<Mirror> moved(std::vector<Mirror> mirrors, double by_m) {
@@ -90,7 +90,7 @@ Hall hall_of(const TracedStudy& study, unsigned seed) {
   Rng rng(seed);
   const Path path = aisles(0.03);
   const Path beliefs = believed(path, noise, kPathRate, rng);
-  // Phases are bent at the true places of the antenna.
+  // Reflections are computed at the true positions of the antenna.
   Hall hall = made::hall(path, path, 4, Noise{}, rng);
   reflect(walls(study.gain), hall);
   stray(study.strays, hall, rng);
@@ -102,7 +102,7 @@ Hall hall_of(const TracedStudy& study, unsigned seed) {
     }
   }
   hall.problem.pose_error.reset();
-  if (study.pose_error_told) hall.problem.pose_error = PoseErrorModel{study.pose_m, 0.0, 5.0};
+  if (study.pose_error_stated) hall.problem.pose_error = PoseErrorModel{study.pose_m, 0.0, 5.0};
   hall.problem.half_turns = study.half_turns;
   if (study.half_turns) double_phases(hall.problem.samples);
   hall.problem.trace = known(moved(walls(study.believed_gain), study.walls_off_m));
@@ -137,8 +137,8 @@ TEST(Multipath, WithTheWorldKnownReflectionsAreTakenOut) {
 }
 
 TEST(Multipath, LocatesWhereReflectionsAreNearlyAsStrongAsTheDirectPath) {
-  // Three mirrors together have twice the direct path's amplitude. Places are not held against the
-  // phases as they are, which the direct path alone no longer explains.
+  // Three mirrors together have twice the direct path's amplitude. Positions are not checked
+  // against the uncorrected phases, which the direct path alone no longer explains.
   const Method checked = {
       "checked", "", [](const LocalizationProblem& problem, int threads, Diagnostics& diagnostics) {
         return locate_problem(multipath_method(), problem, threads, diagnostics);
@@ -151,7 +151,7 @@ TEST(Multipath, LocatesWhereReflectionsAreNearlyAsStrongAsTheDirectPath) {
 
 TEST(Multipath, EstimatesThePoseErrorToo) {
   for (const bool told : {true, false}) {
-    const Tally tally = with(multipath_method(), {.pose_m = 0.01, .pose_error_told = told});
+    const Tally tally = with(multipath_method(), {.pose_m = 0.01, .pose_error_stated = told});
     EXPECT_GE(tally.errors.size(), 6U) << told;
     EXPECT_LT(tally.part(0.5), 0.015) << told;
     EXPECT_EQ(tally.worse_than(0.3), 0U) << told;
@@ -162,7 +162,7 @@ TEST(Multipath, EstimatesThePoseErrorToo) {
 TEST(Multipath, AWorldKnownWronglyIsNoCertainty) {
   std::size_t warnings = 0;
   const Tally tally = with(multipath_method(), {.believed_gain = -0.5}, &warnings);
-  EXPECT_EQ(warnings, 2U);  // One a run: that the phases don't fit the known world.
+  EXPECT_EQ(warnings, 2U);  // One per run: that the phases don't fit the known world.
   EXPECT_EQ(tally.worse_than(0.3), 0U);
   EXPECT_LT(tally.calibration(), 3.0);
 }
@@ -185,7 +185,7 @@ TEST(Multipath, AFewReadsThatNoPathExplainsDoNoHarm) {
   EXPECT_LT(tally.calibration(), 1.5);
 }
 
-/// What mirrors do to a reply's phase beside the direct path [rad].
+/// Phase shift of a reply due to mirrors, relative to the direct path [rad].
 double bend_of(const TracedReply& reply, const Eigen::Vector3d& p_WT, double frequency_hz) {
   std::complex<double> all = 0.0;
   std::complex<double> direct = 0.0;
@@ -201,7 +201,7 @@ double bend_of(const TracedReply& reply, const Eigen::Vector3d& p_WT, double fre
 }
 
 TEST(Multipath, WhatIsExplainedIsOfThePlaceThatIsClaimed) {
-  // After one round the joint fit has hardly come to rest, and tags go on from there.
+  // After one round the joint fit has hardly converged, and tags are refined from there.
   const std::vector<Mirror> mirrors = walls(0.95);
   std::size_t claimed = 0;
   double most = 0.0;

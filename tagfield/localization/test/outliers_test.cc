@@ -30,7 +30,7 @@ TEST(Outliers, MixtureFindsNoiseAndShare) {
   EXPECT_TRUE(has_outliers(mixture));
 }
 
-// Bayes' theorem, of normal noise and angles all around alike.
+// Bayes' theorem for normal noise and uniformly distributed angles.
 TEST(Outliers, EachIsOneByTheDensities) {
   Rng rng(4);
   const Eigen::ArrayXd drawn = angles(2000, 0.2, 0.1, rng);
@@ -67,12 +67,12 @@ TEST(Outliers, AreTakenOutAndOthersLeft) {
   }
   const std::size_t removed = remove_outliers(hall.problem, "t0", samples);
   EXPECT_EQ(samples["a"].size() + removed, before);
-  // One in ten of any value is within 0.3 rad of the right one.
+  // One in ten random phases is within 0.3 rad of the right one.
   EXPECT_GT(static_cast<double>(removed), 0.75 * static_cast<double>(spoilt));
   EXPECT_LT(static_cast<double>(removed), 1.2 * static_cast<double>(spoilt));
 }
 
-/// `auto` with one in 20 reads of any value errs as without them.
+/// With one in 20 phases random, `auto` has the same errors as without them.
 TEST(Outliers, DoNotHurtTheAutomaticChoice) {
   Rng rng(4);
   const made::Path path = made::s_curve(12.0, 0.02);

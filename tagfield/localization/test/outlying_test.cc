@@ -15,7 +15,7 @@ using namespace made;
 
 constexpr double kNoise = 0.1;
 
-/// Reads of three channels with an offset each, every `every`-th of them half a turn off.
+/// Reads on three channels with an offset each, every `every`-th of them off by π.
 std::vector<PhaseLeft> reads(std::size_t count, std::size_t every, Rng& rng) {
   std::vector<PhaseLeft> left;
   for (std::size_t i = 0; i < count; ++i) {
@@ -37,7 +37,7 @@ TEST(Outlying, NamesThoseFarFromTheirChannel) {
 TEST(Outlying, OfNoiseAloneHardlyAny) {
   Rng rng(4);
   const PhaseSpread spread = spread_of(reads(3000, 0, rng), kNoise);
-  // Beyond four deviations are 6 of 100,000.
+  // 6 of 100,000 are beyond four standard deviations.
   EXPECT_LE(std::count(spread.outlying.begin(), spread.outlying.end(), true), 3);
 }
 

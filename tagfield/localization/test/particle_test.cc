@@ -56,7 +56,7 @@ TEST(Particle, AStraightPathLeavesTheMirrorImage) {
   EXPECT_EQ(tally.ambiguous_with_truth, 20);
 }
 
-/// With all particles in one mode their mean is near the most likely place.
+/// With all particles in one mode, their mean is near the most likely position.
 TEST(Particle, AgreesWithTheHologram) {
   Rng rng(3);
   const Eigen::Vector3d p_WT(4.0, 2.5, 0.4);
@@ -69,8 +69,8 @@ TEST(Particle, AgreesWithTheHologram) {
             2.0 * other.candidates.at(0).expected_error_m);
 }
 
-/// Of thirty reads 0.3 m apart many places make about as much, the more so with poses that are off
-/// by 3 cm, each by itself. Particles are drawn together the less for it, once that is told.
+/// With thirty reads 0.3 m apart many positions have about the same likelihood, even more so with
+/// independent pose errors of 3 cm. If these are stated, particles concentrate less.
 TEST(Particle, ClaimsFewerFalsePlacesWherePoseErrorsAreTold) {
   Rng rng(6);
   Noise noise;

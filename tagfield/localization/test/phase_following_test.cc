@@ -12,7 +12,7 @@ double range_at(const PhaseSample& sample, const Eigen::Vector3d& p_WT) {
   return (p_WT - sample.p_WA).norm();
 }
 
-/// Greatest jump between neighbours of followed less true distance, in half wavelengths.
+/// Largest jump between neighbours of unwrapped minus true distance, in half wavelengths.
 double greatest_slip(const PhaseSegment& segment, const Eigen::Vector3d& p_WT) {
   double greatest = 0.0;
   for (std::size_t i = 1; i < segment.samples.size(); ++i) {
@@ -23,7 +23,7 @@ double greatest_slip(const PhaseSegment& segment, const Eigen::Vector3d& p_WT) {
   return greatest / (0.5 * wavelength(865.7e6));
 }
 
-/// Whole cycles by which the end of a segment is off its beginning, each by the mean of 20 reads.
+/// Whole cycles lost between the beginning and the end of a segment, each the mean of 20 reads.
 int cycles_lost(const PhaseSegment& segment, const Eigen::Vector3d& p_WT) {
   constexpr std::size_t kMany = 20;
   const std::size_t count = segment.samples.size();
@@ -92,7 +92,7 @@ TEST(PhaseFollowing, BridgesAFewLostReads) {
   noise.range_sigma = 0.0;
   auto samples =
       made::read_along(made::straight(4.0, 0.02), Eigen::Vector3d(2.0, 1.5, 0.4), noise, rng);
-  // 14 cm, over the 8.66 cm that unwrapping by itself can pass.
+  // 14 cm, more than the 8.66 cm that unwrapping alone can bridge.
   samples.erase(samples.begin() + 60, samples.begin() + 66);
   const auto segments = follow(samples, 0.1);
   ASSERT_EQ(segments.size(), 1U);

@@ -19,8 +19,8 @@ double between(Draws& rng, double from, double to) {
   return std::uniform_real_distribution<double>(from, to)(rng);
 }
 
-/// Four antennas at rest that read a tag `reads` times on each of 20 carriers, the phase that
-/// `phase` says, of the number of the read and the carrier's mean.
+/// Four stationary antennas read a tag `reads` times on each of 20 carriers, with the phase
+/// `phase(read, mean)` for the read's index and the carrier's mean phase.
 SamplesOfTag at_rest(int reads, Draws& rng, const std::function<double(int, double)>& phase) {
   SamplesOfTag samples;
   for (int antenna = 0; antenna < 4; ++antenna) {
@@ -39,14 +39,14 @@ SamplesOfTag at_rest(int reads, Draws& rng, const std::function<double(int, doub
   return samples;
 }
 
-// Brute force: every way to put five phases into two groups.
+// Brute force: every division of six phases into two groups.
 TEST(PhaseGroups, TheScatterIsTheLeastOfAllDivisions) {
   Draws rng(1);
   for (int trial = 0; trial < 100; ++trial) {
     std::vector<double> phases;
     for (int i = 0; i < 6; ++i) phases.push_back(between(rng, 0.0, kTwoPi));
     double least = 1e9;
-    for (unsigned turns = 0; turns < 64; ++turns) {  // Each phase as it is, or a turn further.
+    for (unsigned turns = 0; turns < 64; ++turns) {  // Each phase as it is, or plus 2π.
       for (unsigned group = 0; group < 64; ++group) {
         double sums[2] = {0.0, 0.0};
         double squares[2] = {0.0, 0.0};

@@ -52,7 +52,7 @@ TEST(Join, LeavesOutReadsWithoutAPoseAndSaysHowMany) {
   Diagnostics diagnostics;
   const auto joined = join({read_of(0.9), read_of(1.0), read_of(2.0), read_of(3.1)},
                            {pose_at_x(1.0, 0.0), pose_at_x(3.0, 1.0)}, diagnostics);
-  EXPECT_EQ(joined.at("t").at("a").size(), 1u);  // that at 1.0: 2.0 lies in a gap of 2 s
+  EXPECT_EQ(joined.at("t").at("a").size(), 1u);  // The one at 1.0: 2.0 lies in a gap of 2 s.
   ASSERT_EQ(diagnostics.warnings().size(), 1u);
   EXPECT_EQ(
       diagnostics.warnings()[0],
@@ -67,7 +67,7 @@ TEST(Join, SaysHowFarTwoClocksAreApart) {
          diagnostics);
     ASSERT_EQ(diagnostics.warnings().size(), 1u);
     const std::string& warning = diagnostics.warnings()[0];
-    // From the end of the earlier to the begin of the later: a second less than the shift.
+    // From the end of the earlier to the beginning of the later: a second less than the shift.
     const std::string apart = shift > 0.0 ? "1699999999.000 s apart" : "49.000 s apart";
     EXPECT_NE(warning.find(apart), std::string::npos) << warning;
     EXPECT_NE(warning.find("poses from 1.000 to 2.000 s"), std::string::npos) << warning;

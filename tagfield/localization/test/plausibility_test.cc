@@ -14,7 +14,7 @@ namespace {
 
 using made::Rng;
 
-/// Σ|S_g| of waves of any phase.
+/// Σ|S_g| of random phasors.
 double random_sum(const std::vector<double>& reads, Rng& rng) {
   double sum = 0.0;
   for (const double n : reads) {
@@ -52,11 +52,11 @@ TEST(Plausibility, ChanceOfPairsIsBoundedFromAbove) {
 }
 
 TEST(Plausibility, FreeOffsetsCount) {
-  // A read each: all waves add up, whatever they are.
+  // With one read per aperture all phasors add up, whatever their phases.
   EXPECT_GE(log_chance(std::vector<double>(100, 1.0), 100.0, 1.0), 0.0);
-  // No more of them can.
+  // A larger sum is impossible.
   EXPECT_LT(log_chance(std::vector<double>(4, 1.0), 4.2, 1.0), std::log(1e-3));
-  // The same sum of one group is no chance.
+  // For a single aperture the same sum is not due to chance.
   EXPECT_LT(log_chance({100.0}, 100.0, 1e6), std::log(1e-20));
 }
 
@@ -82,7 +82,8 @@ TEST(Plausibility, NoMethodPlacesRandomPhases) {
   }
 }
 
-/// Thirty-one reads whose waves all add up, where chance has so many places in reach only.
+/// Thirty-one reads whose phasors all add up; the number of positions in reach limits what chance
+/// can do.
 TEST(Plausibility, WhereTheWorldHasItsOriginDoesNotMatter) {
   Rng rng(7);
   for (const double east_m : {0.0, 5e4, -5e4}) {
@@ -159,7 +160,7 @@ TEST(Plausibility, AheadOfAStraightWayThereAreManyPlaces) {
     span_line(problem, result);
     EXPECT_FALSE(is_false(result.estimates.front(), tag)) << i;
   }
-  EXPECT_GT(before, 0);  // There was something to mend.
+  EXPECT_GT(before, 0);  // Otherwise the test shows nothing.
 }
 
 TEST(Plausibility, SaysThatTheSignIsWrong) {

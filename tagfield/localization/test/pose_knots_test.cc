@@ -17,7 +17,7 @@ using Index = Eigen::Index;
 constexpr double kTau = 3.0;
 constexpr double kDay = 86400.0;
 
-/// One antenna that reads one tag at these times, as it goes along x.
+/// One antenna that moves along x and reads one tag at these times.
 LocalizationProblem read_at(const std::vector<double>& times_s) {
   LocalizationProblem problem;
   for (std::size_t i = 0; i < times_s.size(); ++i) {
@@ -44,7 +44,7 @@ std::vector<double> times_of(const PoseKnots& knots) {
   return times;
 }
 
-/// e^(−|t − t'|/τ) between two sets of times.
+/// Correlations e^(−|t − t'|/τ) between two sets of times.
 Eigen::MatrixXd covariance_between(const std::vector<double>& a, const std::vector<double>& b) {
   Eigen::MatrixXd K(static_cast<Index>(a.size()), static_cast<Index>(b.size()));
   for (Index i = 0; i < K.rows(); ++i) {
@@ -121,7 +121,7 @@ TEST(PoseKnots, PriorIsTheDenseNormalDistributionAcrossPauses) {
     expected += u.dot(factors.solve(u));
   }
   EXPECT_NEAR(cost_of(system), expected, 1e-8 * expected);
-  // Two axes of ln |K⁻¹|, which evidence() takes off again.
+  // ln |K⁻¹| of two axes, which evidence() subtracts again.
   const double log_determinant =
       -4.0 * Eigen::MatrixXd(factors.matrixL()).diagonal().array().log().sum();
   EXPECT_NEAR(covariance_of(system, 1).log_determinant, log_determinant, 1e-8);

@@ -25,7 +25,7 @@ TagPhases two_spans(Rng& rng, Eigen::Index count) {
   return phases;
 }
 
-/// Σ eᵀ C⁻¹ e with C in full.
+/// Σ eᵀ C⁻¹ e with the full matrix C.
 double by_matrices(const TagPhases& phases, const Eigen::ArrayXd& residuals, double white) {
   double sum = 0.0;
   for (const TagPhases::Span& span : phases.spans) {
@@ -63,7 +63,7 @@ TEST(PoseMisfit, ReadsFarApartHidePoseErrors) {
   TagPhases phases = two_spans(rng, 12);
   for (Eigen::Index i = 0; i < phases.size(); ++i) phases.time_s[i] = static_cast<double>(i);
   const Eigen::ArrayXd residuals = Eigen::ArrayXd::Zero(phases.size());
-  EXPECT_FALSE(hides_pose_errors(phases, residuals));  // None is told.
+  EXPECT_FALSE(hides_pose_errors(phases, residuals));  // None is stated.
   phases.pose_error = PoseErrorModel{0.02, 0.0, 5.0};
   EXPECT_TRUE(hides_pose_errors(phases, residuals));
   phases.time_s *= 0.1;

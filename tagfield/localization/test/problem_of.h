@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Problems for the methods, from made reads (made_reads.h).
+/// Problems for the methods, from synthetic reads (made_reads.h).
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace tagfield::made {
 
 inline constexpr double kPathRate = 15.0;
 
-/// Poses of an antenna that is at place i of the path at i/15 s, as read_along() has it.
+/// Poses of an antenna that is at point i of the path at i/15 s, as in read_along().
 inline BelievedTrack track_along(const Path& path) {
   BelievedTrack track;
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -30,7 +30,7 @@ struct Hall {
   std::map<std::string, Eigen::Vector3d> truth;
 };
 
-/// Tags t0, t1, … 1 to 4 m beside the path, read by antenna "a" which believes to be at `beliefs`.
+/// Tags t0, t1, … 1 to 4 m beside the path, read by antenna "a" with the believed path `beliefs`.
 inline Hall hall(const Path& path, const Path& beliefs, int tags, const Noise& noise, Rng& rng,
                  double z = 0.4) {
   Hall made;
@@ -49,7 +49,7 @@ inline Hall hall(const Path& path, int tags, const Noise& noise, Rng& rng, doubl
   return hall(path, believed(path, noise, kPathRate, rng), tags, noise, rng, z);
 }
 
-/// The clock goes on by `pause_s` after so long, while nothing moves or is read.
+/// Inserts a pause of `pause_s` after `after_s`, during which nothing moves or is read.
 inline void pause(Hall& hall, double after_s, double pause_s) {
   const Time begin = time_from_seconds(ReaderSetup{}.start_s + after_s);
   const auto shift = [&](auto& rows) {
@@ -61,7 +61,7 @@ inline void pause(Hall& hall, double after_s, double pause_s) {
   }
 }
 
-/// Reads with late stamps, joined with where the antenna was believed to be at those.
+/// Delays the reads' stamps and joins them with the believed antenna positions at these.
 inline void make_late(Hall& hall, double late_s) {
   for (auto& [tag, of_tag] : hall.problem.samples) {
     for (auto& [antenna, series] : of_tag) {

@@ -49,7 +49,7 @@ RC_GTEST_PROP(PlaneInReach, TellsOfPlacesAroundWhatEachTellsOfItself, ()) {
   }
 }
 
-/// Of one antenna, a closer look is taken only where the circle of its reach is cut.
+/// With one antenna, only areas that the circle of its reach crosses are examined more closely.
 TEST(PlaneInReach, LooksCloserOnlyWhereSomePlacesAreInReachAndSomeAreNot) {
   TagPhases phases;
   phases.value = phases.x = phases.y = phases.z = Eigen::ArrayXd::Zero(1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reflections for made reads: mirror images of the tag behind planes, whose waves add to the
-/// direct one on the way there and on the way back.
+/// Reflections for synthetic reads: mirror images of the tag behind planes, whose waves add to the
+/// direct one on the forward and the return path.
 #pragma once
 
 #include <complex>
@@ -12,7 +12,7 @@
 
 namespace tagfield::made {
 
-/// A plane across an axis of the world at `at` [m], which reflects waves with `gain`.
+/// A plane perpendicular to a world axis at `at` [m] with the reflection coefficient `gain`.
 struct Mirror {
   int axis = 0;
   double at = 0.0;
@@ -24,7 +24,7 @@ inline std::vector<Mirror> walls(double gain) {
   return {{2, 0.0, gain}, {0, -5.0, gain}, {1, 11.0, gain}};
 }
 
-/// The phases of an antenna at its believed place turned by the images of a tag at `p_WT`.
+/// Changes the phases of an antenna at its believed positions by the images of a tag at `p_WT`.
 inline void reflect(const std::vector<Mirror>& mirrors, const Eigen::Vector3d& p_WT,
                     std::vector<PhaseSample>& samples) {
   for (PhaseSample& sample : samples) {

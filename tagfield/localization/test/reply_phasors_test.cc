@@ -23,7 +23,7 @@ Vector3d anywhere(made::Rng& rng, double most) {
           made::uniform(rng, -0.3 * most, 0.3 * most)};
 }
 
-/// From an antenna some metres off, with weaker images of it further away.
+/// Waves from an antenna some metres away and from weaker images of it further away.
 std::vector<TracedWave> some_waves(made::Rng& rng) {
   const Vector3d antenna = Vector3d(3.0, 0.0, 0.0) + anywhere(rng, 1.5);
   std::vector<TracedWave> waves = {{antenna, {0.8, -0.6}, Vector3d::UnitX(), true}};
@@ -37,7 +37,7 @@ std::vector<TracedWave> some_waves(made::Rng& rng) {
   return waves;
 }
 
-/// By the definition, in double precision, with amplitudes as they are at `about`.
+/// Field by the definition, in double precision, with amplitudes as at `about`.
 std::complex<double> field_at(const std::vector<TracedWave>& waves, const Vector3d& p,
                               const Vector3d& about) {
   const double k = kTwoPi / wavelength(kCarrierHz);
@@ -59,12 +59,13 @@ double directness_at(const std::vector<TracedWave>& waves, const Vector3d& p) {
   return std::abs(waves.front().amplitude) / (p - waves.front().source_W).norm() / all;
 }
 
-/// Phase of the way out less that of the direct wave [rad], near 0.
+/// Phase of the forward path minus that of the direct wave [rad], near 0.
 double bend_at(const std::vector<TracedWave>& waves, const Vector3d& p, const Vector3d& about) {
   return -std::arg(field_at(waves, p, about) / field_at({waves.front()}, p, about));
 }
 
-/// [m/m], by differences. That waves also weaken with distance is left out, as it is in bends.h.
+/// [m/m], by finite differences. The decrease of amplitude with distance is neglected, as in
+/// bends.h.
 Vector3d slope_at(const std::vector<TracedWave>& waves, const Vector3d& p) {
   constexpr double kStep = 1e-6;
   const double k = kTwoPi / wavelength(kCarrierHz);

@@ -26,7 +26,7 @@ Eigen::ArrayXd series(Eigen::Index count, double keep, Rng& rng) {
 TEST(NoiseOfOne, IsThatOfNeighbours) {
   Rng rng(9);
   constexpr Eigen::Index kCount = 100000;
-  // ½ E Δ² = 1 − ρ; a slope adds half its square, and two spans have no step between them.
+  // ½ E Δ² = 1 − ρ; a slope adds half its square, and the step between two spans does not count.
   for (const double keep : {0.0, 0.5}) {
     Eigen::ArrayXd values = series(kCount, keep, rng);
     values += Eigen::ArrayXd::LinSpaced(kCount, 0.0, 1e-3 * kCount);
@@ -61,7 +61,7 @@ TEST(TellsApart, OnlyWhatIsMoreThanChance) {
   EXPECT_FALSE(tells_apart(spans, best, best));
   EXPECT_FALSE(tells_apart(spans, best, best + 0.0003 * series(kCount, 0.0, rng)));
   EXPECT_TRUE(tells_apart(spans, best, best + 0.006 * series(kCount, 0.9, rng)));
-  // Two equally good explanations, independent of each other: no one is the better.
+  // Two equally good explanations, independent of each other: neither is better.
   EXPECT_FALSE(tells_apart(spans, best, 0.003 * series(kCount, 0.0, rng)));
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using namespace made;
 
-/// Over several halls.
+/// Tally over several halls.
 Tally amid_reflections(double gain, bool half_turns, const Noise& noise) {
   Tally tally;
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {

@@ -112,7 +112,7 @@ TEST(Sar, LostReadsAndADriftingPoseCostAccuracyNotTruth) {
   EXPECT_EQ(tally.worse_than(0.3), 0u);
 }
 
-/// A read a second, as of one tag among hundreds, with a drifting pose whose error is told.
+/// One read per second, as for one tag among hundreds, with a drifting pose whose error is stated.
 Tally with_reads_far_apart(const Noise& noise) {
   ReaderSetup setup;
   setup.rate_hz = 1.0;
@@ -133,7 +133,7 @@ Tally with_reads_far_apart(const Noise& noise) {
   return tally;
 }
 
-// That the pose's errors are slow doesn't show in the residuals.
+// The residuals do not show that pose errors are slow.
 TEST(Sar, ErrsAsItSaysWhereReadsAreFarApartAndThePoseDrifts) {
   Noise noise;
   noise.pose_m = 0.015;
@@ -144,13 +144,13 @@ TEST(Sar, ErrsAsItSaysWhereReadsAreFarApartAndThePoseDrifts) {
   EXPECT_LT(tally.calibration(), 1.2);
 }
 
-// Residuals can't tell as many lobes apart as the likelihood under that error can.
+// Residuals distinguish fewer lobes than the likelihood under that pose error.
 TEST(Sar, ComparesLobesByTheToldPoseErrorWhereReadsAreFarApart) {
   Noise noise;
   noise.pose_m = 0.03;
   noise.phase_rad = 0.4;
   const Tally tally = with_reads_far_apart(noise);
-  EXPECT_GE(tally.errors.size(), 150U);  // By residuals alone two thirds of these.
+  EXPECT_GE(tally.errors.size(), 150U);  // By residuals alone, two thirds of these.
   EXPECT_LT(tally.errors.back(), 0.3);
   EXPECT_GT(tally.calibration(), 0.7);
   EXPECT_LT(tally.calibration(), 1.2);
@@ -188,13 +188,13 @@ TEST(Sar, ASecondAntennaTellsTheMirrorImagesApart) {
   const TagEstimate both = locate_one(sar(), one_tag(samples, 0.9));
   ASSERT_EQ(both.verdict, Verdict::kLocated);
   EXPECT_LT(level_error(both.candidates[0], p_WT), 0.03);
-  // An antenna that stands tells nothing by its phase, unless its offset is known.
+  // The phase of a stationary antenna carries no information unless its offset is known.
   samples["fixed"] = read_along(Path(400, {1.0, 3.0, 2.0}), p_WT, Noise{}, rng);
   const TagEstimate all = locate_one(sar(), one_tag(samples, 0.9));
   EXPECT_EQ(all.candidates.at(0).p_WT, both.candidates[0].p_WT);
 }
 
-/// A reflection as strong as 0.3 of the direct wave each way, from a wall behind the tag.
+/// Adds a reflection of 0.3 of the direct wave in each direction, from a wall behind the tag.
 std::vector<PhaseSample> with_reflection(std::vector<PhaseSample> samples,
                                          const Eigen::Vector3d& p_WT, double wall_y) {
   const double k = kTwoPi / wavelength(865.7e6);
@@ -204,7 +204,7 @@ std::vector<PhaseSample> with_reflection(std::vector<PhaseSample> samples,
     const double other = (image - sample.p_WA).norm();
     const double extra = k * (other - direct);
     const double gain = -0.3 * direct / other;
-    // The channel goes there and back: its phase counts twice.
+    // The signal passes the channel twice, there and back, so its phase counts twice.
     const double turn = std::atan2(-gain * std::sin(extra), 1.0 + gain * std::cos(extra));
     sample.phase_rad = wrap_to_two_pi(sample.phase_rad - 2.0 * turn);
   }
@@ -226,7 +226,7 @@ TEST(Sar, AReflectionCostsCentimetres) {
   EXPECT_EQ(tally.worse_than(0.3), 0u);
 }
 
-/// Brightness by plain complex numbers.
+/// Brightness computed directly with complex numbers.
 double brightness(const std::vector<PhaseSample>& samples, const Eigen::Vector3d& p_WT) {
   std::complex<double> sum = 0.0;
   for (const PhaseSample& s : samples) {
@@ -273,7 +273,7 @@ RC_GTEST_PROP(Hologram, BrightnessInSinglePrecisionIsThatInDouble, ()) {
             1e-3 * static_cast<double>(samples.size()));
 }
 
-/// Of cells so small that what the glance leaves out, |u v|/2r, is under 0.2 mm from 1 m on.
+/// With cells so small that what the glance neglects, |u v|/2r, is under 0.2 mm from 1 m on.
 RC_GTEST_PROP(Hologram, AGlanceAtABlockIsTheBrightnessOfItsCells, ()) {
   Rng rng(*rc::gen::arbitrary<std::uint32_t>());
   const Path path = s_curve(6.0, 0.05);
@@ -283,7 +283,7 @@ RC_GTEST_PROP(Hologram, AGlanceAtABlockIsTheBrightnessOfItsCells, ()) {
   const CellBlock block{static_cast<float>(uniform(rng, -5.0, 5.0)),
                         static_cast<float>(uniform(rng, 3.0, 9.0)), 0.0025f};
   const BlockLight light =
-      coherent_glance(search_reads(phases, kWholeAperture, 0.4, middle), block);
+      approximate_coherence(search_reads(phases, kWholeAperture, 0.4, middle), block);
   for (const int i : {0, 7, 15}) {
     for (const int j : {0, 9, 15}) {
       const double cell = static_cast<double>(block.cell_m);
@@ -295,7 +295,7 @@ RC_GTEST_PROP(Hologram, AGlanceAtABlockIsTheBrightnessOfItsCells, ()) {
   }
 }
 
-/// A brightness that has no glance at blocks is glanced at a tile after the other.
+/// A brightness without a glance at blocks is evaluated tile by tile.
 TEST(Hologram, AGlanceInTilesLeadsToTheSamePlacesAsOneAtBlocks) {
   Rng rng(5);
   Hall hall = made::hall(aisles(0.02), 4, Noise{}, rng);
@@ -324,7 +324,7 @@ RC_GTEST_PROP(Hologram, WavesAreThoseOfTheAngle, ()) {
 }
 
 TEST(Sar, ReflectionsShiftPlacesLittle) {
-  // Waves of half the amplitude bend phases by up to 1.05 rad, there and back.
+  // Waves of half the amplitude shift phases by up to 1.05 rad, there and back.
   int located = 0;
   for (const unsigned seed : {1U, 2U, 3U, 4U, 5U}) {
     Rng rng(seed);

@@ -22,10 +22,10 @@ constexpr double kRail = 0.3;  ///< Height of the rail [m].
 
 struct Echo {
   Eigen::Vector2d place;
-  double strength = 0.0;  ///< Of the direct path's.
+  double strength = 0.0;  ///< Relative to the direct path.
 };
 
-/// One way: the tag's field at `p`, and that of its echo, in the plane.
+/// One-way field at `p` of the tag and its echo, in the plane.
 std::complex<double> field_at(const Eigen::Vector2d& p, const Eigen::Vector2d& tag,
                               const Echo& echo) {
   const double k = kTwoPi / wavelength(kCarrier);
@@ -36,7 +36,7 @@ std::complex<double> field_at(const Eigen::Vector2d& p, const Eigen::Vector2d& t
   return wave(tag, 1.0) + wave(echo.place, echo.strength);
 }
 
-/// A rail of 1 m along x with 50 stops, there and back through both paths.
+/// Reads on a rail of 1 m along x with 50 stops, with both paths there and back.
 SamplesOfTag scanned(const Eigen::Vector2d& tag, const Echo& echo, double noise_rad, Rng& rng) {
   SamplesOfTag samples;
   const double offset = made::uniform(rng, 0.0, kTwoPi);
@@ -81,7 +81,7 @@ TEST(ScanField, IsTheRootOfWhatIsRead) {
   const ScanField scan = scan_field(problem, "t", problem.samples["t"]);
   ASSERT_EQ(scan.why_not, "");
   ASSERT_EQ(scan.field.size(), 50);
-  // But for one complex factor.
+  // Equal up to a complex factor.
   std::complex<double> match = 0.0;
   double power = 0.0;
   for (Eigen::Index i = 0; i < 50; ++i) {
@@ -91,7 +91,7 @@ TEST(ScanField, IsTheRootOfWhatIsRead) {
     power += std::norm(field);
   }
   EXPECT_NEAR(std::norm(match) / power, 1.0, 1e-6);
-  // 1 m of way, sampled by a field that changes within λ/2: about 2 L/λ + 1.
+  // 1 m of path, over which the field changes within λ/2: about 2 L/λ + 1.
   EXPECT_NEAR(scan.samples, 6.6, 0.5);
 }
 
@@ -101,7 +101,7 @@ TEST(ScanField, IsThatOfTheAntennaWithMostPlacesWhateverOthersStoodStill) {
   const std::vector<PhaseSample> all = scanned(tag, {{1.0, 1.0}, 0.0}, 0.0, rng).at("a");
   std::vector<PhaseSample> still = all;
   for (PhaseSample& sample : still) sample.p_WA = {2.0, 2.0, kRail};
-  // By the order of their names: one sees half of the rail, one stands, and one sees all.
+  // In order of names: one covers half of the rail, one is stationary, and one covers all of it.
   const SamplesOfTag samples{{"a", {all.begin(), all.begin() + 25}}, {"b", still}, {"c", all}};
   const ScanField scan = scan_field({}, "t", samples);
   ASSERT_EQ(scan.why_not, "");
@@ -122,7 +122,7 @@ TEST(PooledDistance, TagsAtOneDistanceHelpEachOther) {
   const auto about = [&](double middle, double spread) -> Eigen::ArrayXd {
     return (-0.5 * ((away / middle).log() / spread).square()).exp();
   };
-  // Nine sharp ones at 0.8 m, and one that knows next to nothing.
+  // Nine sharp ones at 0.8 m, and one that carries hardly any information.
   std::vector<Eigen::ArrayXd> likelihoods(9, about(0.8, 0.05));
   likelihoods.push_back(about(1.5, 1.0));
   const Eigen::ArrayXd expected = expected_distances(away, likelihoods).back();
@@ -130,7 +130,7 @@ TEST(PooledDistance, TagsAtOneDistanceHelpEachOther) {
   Eigen::Index best = 0;
   posterior.maxCoeff(&best);
   EXPECT_NEAR(away[best], 0.8, 0.05);
-  // Where distances differ by factors, nothing is learned: the expectation is wide.
+  // If distances differ by factors, nothing is learned: the expectation is wide.
   std::vector<Eigen::ArrayXd> apart;
   for (const double middle : {0.3, 0.6, 1.2, 2.4}) apart.push_back(about(middle, 0.05));
   apart.push_back(about(1.5, 1.0));

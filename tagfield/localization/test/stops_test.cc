@@ -14,7 +14,7 @@ PhaseSample sample(double t, double x, double carrier, double phase, double rssi
   return {time_from_seconds(t), phase, carrier, {x, 0.0, 1.0}, rssi};
 }
 
-/// Two channels in turn at two stops 0.5 m apart.
+/// Two alternating channels at two stops 0.5 m apart.
 SamplesByTag two_stops() {
   SamplesByTag samples;
   std::vector<PhaseSample>& series = samples["tag"]["a"];
@@ -45,7 +45,8 @@ TEST(Stops, AreOneObservationAChannel) {
 TEST(Stops, OutliersPullLittle) {
   SamplesByTag samples;
   std::vector<PhaseSample>& series = samples["tag"]["a"];
-  // 2 of 40 reads anywhere: a mean of angles would be off by 0.15 rad, the circle's is by 0.05.
+  // 2 of 40 reads are outliers: a plain mean of angles would be off by 0.15 rad, the circular mean
+  // is off by 0.05.
   for (int i = 0; i < 40; ++i)
     series.push_back(sample(0.1 * i, 0.0, 866e6, i % 20 == 7 ? 3.9 : 1.0));
   series.push_back(sample(5.0, 0.5, 866e6, 1.0));

@@ -8,7 +8,7 @@ namespace {
 
 Time at(double seconds) { return time_from_seconds(seconds); }
 
-/// As many, a tenth of a second apart.
+/// `count` rows, a tenth of a second apart.
 std::vector<Time> rows(int count, double begin_s) {
   std::vector<Time> stamps;
   stamps.reserve(static_cast<std::size_t>(count));
@@ -48,7 +48,7 @@ TEST(Strays, AreAnHourOffAtLeast) {
 TEST(Strays, AreFurtherOffThanTheOthersLast) {
   std::vector<Time> slow;
   slow.reserve(200);
-  for (int i = 0; i < 200; ++i) slow.push_back(at(60.0 * i));  // Three hours and a third.
+  for (int i = 0; i < 200; ++i) slow.push_back(at(60.0 * i));  // 3 h 20 min.
   expect_range(with(slow, {at(5.0 * 3600.0)}), at(0.0), at(5.0 * 3600.0));
   expect_range(with(slow, {at(7.0 * 3600.0)}), at(0.0), slow.back());
 }

@@ -37,14 +37,14 @@ TEST(TagArea, SidesOfAWay) {
     EXPECT_FALSE(is_within({tag_side(word), {}}, middle, along, above)) << word;
     EXPECT_TRUE(is_within({tag_side(word), {}}, middle, along, below)) << word;
   }
-  // Axes don't care which way one goes.
+  // Sides by axis don't depend on the direction of travel.
   EXPECT_TRUE(is_within({tag_side("+y"), {}}, middle, -along, above));
   EXPECT_FALSE(is_within({tag_side("left"), {}}, middle, -along, above));
   EXPECT_THROW(tag_side("up"), Error);
 }
 
 TEST(TagArea, WayIsTheLongestExtentFromTheFirstPlaceOn) {
-  const WayLine way = way_line({{0.0, 0.0}, {0.5, 0.1}, {2.0, 0.0}, {1.0, 0.0}});
+  const PathLine way = path_line({{0.0, 0.0}, {0.5, 0.1}, {2.0, 0.0}, {1.0, 0.0}});
   EXPECT_NEAR((way.middle - Vector2d(1.0, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((way.along - Vector2d(1.0, 0.0)).norm(), 0.0, 1e-12);
 }

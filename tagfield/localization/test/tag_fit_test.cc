@@ -28,7 +28,7 @@ TEST(TagFit, FindsTheExactPlaceFromWrappedPhase) {
   const HeightModel height = height_model(hall.problem, "t0", phases);
   const Eigen::Vector3d truth = hall.truth.at("t0");
   const TagFit fit = fit_tag(phases, height, truth + Eigen::Vector3d(0.01, -0.008, 0.0));
-  EXPECT_LT((to_place(height, fit.unknowns) - truth).norm(), 1e-6);
+  EXPECT_LT((to_position(height, fit.unknowns) - truth).norm(), 1e-6);
   EXPECT_LT(fit.cost, 1e-9);
 }
 
@@ -41,10 +41,10 @@ TEST(TagFit, FindsTheHeightOnTheSideThatIsTold) {
     const HeightModel height = height_model(hall.problem, "t0", phases);
     EXPECT_EQ(height.unknowns(), 3);
     const Eigen::Vector3d truth = hall.truth.at("t0");
-    PlaceVector start = to_unknowns(height, truth);
+    PositionVector start = to_unknowns(height, truth);
     start[2] = 0.36;
-    const Eigen::Vector3d found = to_place(height, fit_tag(phases, height, start).unknowns);
-    // The antenna is at 0.4 m, the tag 0.7 m above; its mirror image 0.7 m below.
+    const Eigen::Vector3d found = to_position(height, fit_tag(phases, height, start).unknowns);
+    // The antenna is at 0.4 m, the tag 0.7 m above it, its mirror image 0.7 m below it.
     EXPECT_NEAR(found.z(), side == HeightSide::kAbove ? 1.1 : -0.3, 1e-5);
     EXPECT_LT((found - truth).head<2>().norm(), 1e-5);
   }
@@ -54,18 +54,18 @@ TEST(TagFit, NormalMatrixIsThatOfDifferences) {
   const made::Hall hall = hall_of_one_tag(0.1, 0.9, 3);
   const TagPhases phases = wrapped(hall);
   const HeightModel height = height_model(hall.problem, "t0", phases);
-  const PlaceVector at = to_unknowns(height, hall.truth.at("t0"));
+  const PositionVector at = to_unknowns(height, hall.truth.at("t0"));
   const Eigen::Matrix3d normal = normal_of(phases, height, at);
-  // Residuals' derivatives by differences, their mean taken out as the offset does.
+  // Derivatives of the residuals by finite differences; their mean is removed, as by the offset.
   constexpr double kStep = 1e-6;
   Eigen::MatrixXd J(phases.size(), 2);
   for (Eigen::Index c = 0; c < 2; ++c) {
     for (Eigen::Index i = 0; i < phases.size(); ++i) {
-      PlaceVector more = at;
-      PlaceVector less = at;
+      PositionVector more = at;
+      PositionVector less = at;
       more[c] += kStep;
       less[c] -= kStep;
-      const auto r = [&](const PlaceVector& p) {
+      const auto r = [&](const PositionVector& p) {
         return range_to(height, p, phases.x[i], phases.y[i], phases.z[i]).r;
       };
       J(i, c) = (r(more) - r(less)) / (2.0 * kStep) * phases.wavenumber[i];

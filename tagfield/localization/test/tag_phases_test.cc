@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-/// Held against the reflection by the line's normal n: p − 2 (n · (p − q)) n, q on the line.
+/// Compared with the reflection across a line with normal n: p − 2 (n · (p − q)) n, q on the line.
 TEST(MirrorImage, LiesAcrossThePathWhicheverWayThatGoes) {
   const Eigen::Vector2d p(-0.7, 2.9);
   const Eigen::Vector2d q(1.5, 0.4);

@@ -52,7 +52,7 @@ Scene make_scene(const Strength& strength, std::uint64_t seed, int tags = 8) {
   return scene;
 }
 
-/// Random RSSI of all tags but those that are references.
+/// Random RSSI for all tags except reference tags.
 TEST(Trilateration, RssiThatSaysNothingLocatesNothing) {
   for (const int references : {0, 3}) {
     Scene scene = make_scene({}, 7, 8);
@@ -109,14 +109,14 @@ TEST(Trilateration, ExactRssiGivesTheExactPlace) {
   EXPECT_LT(tally.errors.back(), 1e-3);
 }
 
-/// Twelve places along each of two sides of a square, four reads at each; strengths are off by a
-/// fifth of a decibel, up and down in turn. Reflections and patterns make no mean better than half
-/// a decibel, so that the error is that of such a noise, in closed form.
+/// Twelve positions along each of two sides of a square, four reads at each; RSSI is off by
+/// alternately ±0.2 dB. Because of reflections and patterns no mean is trusted to better than half
+/// a decibel, so the expected error is that of such a noise, in closed form.
 TEST(Trilateration, StrengthsAreBelievedToHalfADecibelAtBest) {
   TrilaterationOptions options;
   options.slope_sigma_db = 0.0;
   options.bin_m = 0.01;
-  const Eigen::Vector3d p_WT(4.0, 4.0, 0.4);  // On the grid that is searched: none is nearer.
+  const Eigen::Vector3d p_WT(4.0, 4.0, 0.4);  // On the search grid, so no grid point is nearer.
   std::vector<PhaseSample> samples;
   Eigen::Matrix<double, 24, 2> slopes;
   for (int i = 0; i < 24; ++i) {

@@ -16,7 +16,7 @@ using namespace made;
 
 const Noise kNoiseless{0.0, 0.0, 0.0, 0.0, 0.0};
 
-/// Every segment's distances against those of the geometry, up to the first.
+/// Largest deviation of a segment's distances from the true ones, relative to its first read.
 double worst_departure(const std::vector<PhaseSegment>& segments, const Eigen::Vector3d& p_WT) {
   double worst = 0.0;
   for (const PhaseSegment& segment : segments) {
@@ -56,7 +56,7 @@ TEST(Unwrap, BreaksJustWhereTheTravelIsTooLong) {
     const auto samples = read_along(path, path, p_WT, noise, rng);
     if (samples.empty()) return;
     const auto segments = unwrap(samples, 0.8);
-    // The second differences of a noiseless phase leave the limit at max_step: λ/4 · 0.8.
+    // The second differences of a noiseless phase keep the limit at max_step: λ/4 · 0.8.
     const double limit = 0.8 * wavelength(865.7e6) / 4.0;
     std::size_t breaks = 0;
     for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -110,7 +110,8 @@ TEST(ExpectedSlips, AreAsManyDifferencesOfNoiseBeyondPi) {
     expected += expected_slips({{"a", noisy}});
   }
   ASSERT_GT(counted, 200);
-  // Poisson's deviation, fourfold, and what the median's own error of the noise does to it.
+  // Four standard deviations of a Poisson distribution, plus the effect of the error of the noise
+  // estimated by the median.
   EXPECT_NEAR(expected, counted, 4.0 * std::sqrt(counted) + 0.15 * counted);
   EXPECT_LT(expected_slips({{"a", read_along(path, p_WT, Noise{}, rng)}}), 1e-9);
 }

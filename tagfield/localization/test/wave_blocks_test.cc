@@ -31,7 +31,7 @@ double turns(const SearchRead& read, double r) {
   return static_cast<double>(read.turns) - static_cast<double>(read.turns_per_metre) * r;
 }
 
-/// Where a cell is from its block's middle, along one axis [m].
+/// Offset of a cell from its block's middle along one axis [m].
 double from_middle(const CellBlock& block, int k) {
   return (k - 0.5 * (kBlock - 1)) * static_cast<double>(block.cell_m);
 }
@@ -42,14 +42,14 @@ double middle_y(const CellBlock& block) {
   return static_cast<double>(block.y) - from_middle(block, 0);
 }
 
-/// What block_sums() makes of a cell.
+/// Result of block_sums() for a cell.
 Complex at(const BlockSums& sums, int i, int j) {
   return {static_cast<double>(sums.in_phase(i, j)), static_cast<double>(sums.quadrature(i, j))};
 }
 
-/// Holds each cell of some block against the sum over the reads of waves over `metres_at(read, x,
-/// y, u, v)`, (x, y) the block's middle and (u, v) the cell from there, within what `allowed` has
-/// for each read.
+/// Compares each cell of a random block with the sum over the reads of phasors for the distance
+/// `metres_at(read, x, y, u, v)`, with (x, y) the block's middle and (u, v) the cell relative to
+/// it. The tolerance is the sum of `allowed` over the reads.
 template <class MetresAt, class Allowed>
 void hold_sums_against(const MetresAt& metres_at, const Allowed& allowed) {
   made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
@@ -73,7 +73,7 @@ void hold_sums_against(const MetresAt& metres_at, const Allowed& allowed) {
   }
 }
 
-/// Single precision knows 100 turns to 4·10⁻⁶ of a turn, and three are put together.
+/// Single precision represents 100 cycles to 4·10⁻⁶ of a cycle, and three such terms are combined.
 constexpr double kRounding = 6e-4;
 
 RC_GTEST_PROP(WaveBlocks, AreThoseOfDistancesPutTogetherFromRowAndColumn, ()) {
@@ -84,7 +84,7 @@ RC_GTEST_PROP(WaveBlocks, AreThoseOfDistancesPutTogetherFromRowAndColumn, ()) {
       [](const SearchRead&, const CellBlock&, double, double) { return kRounding; });
 }
 
-/// |∂²r/∂x∂y| = |x y|/r³ is at most 1/2r, r the least anywhere in the block.
+/// |∂²r/∂x∂y| = |x y|/r³ is at most 1/2r, with r the least distance in the block.
 RC_GTEST_PROP(WaveBlocks, AreNearThoseOfTheDistances, ()) {
   hold_sums_against([](const SearchRead& read, double x, double y, double u,
                        double v) { return metres(read, x + u, y + v); },

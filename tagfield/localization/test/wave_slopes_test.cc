@@ -24,17 +24,17 @@ TagPhases phases_drawn(made::Rng& rng, Eigen::Index count) {
   return phases;
 }
 
-struct OnePlace {
+struct OnePosition {
   TagPhases phases;
   Aperture part;
   HeightModel height;
-  PlaceVector place;
+  PositionVector place;
 };
 
-OnePlace drawn_place() {
+OnePosition drawn_position() {
   made::Rng rng(*rc::gen::arbitrary<std::uint64_t>());
   const auto count = *rc::gen::inRange<Eigen::Index>(1, 60);
-  OnePlace one{phases_drawn(rng, count), {}, {}, {}};
+  OnePosition one{phases_drawn(rng, count), {}, {}, {}};
   one.part.begin = *rc::gen::inRange<Eigen::Index>(0, count);
   one.part.count = *rc::gen::inRange<Eigen::Index>(0, count - one.part.begin + 1);
   one.height.kind = *rc::gen::element(HeightModel::Kind::kKnown, HeightModel::Kind::kLevel,
@@ -42,7 +42,7 @@ OnePlace drawn_place() {
   one.height.z = made::uniform(rng, 0.0, 2.0);
   one.place << made::uniform(rng, -8.0, 8.0), made::uniform(rng, -8.0, 8.0),
       made::uniform(rng, 0.1, 3.0);
-  if (*rc::gen::inRange(0, 3) == 0) {  // As near as that no direction is told.
+  if (*rc::gen::inRange(0, 3) == 0) {  // So near that the direction is undefined.
     one.place.head<2>() << one.phases.x[0] + 1e-3, one.phases.y[0];
   }
   if (one.height.kind == HeightModel::Kind::kKnown) one.place[2] = 0.0;
@@ -50,13 +50,13 @@ OnePlace drawn_place() {
 }
 
 RC_GTEST_PROP(WaveSlopes, AreThoseOfOneReadAfterTheOther, ()) {
-  const OnePlace one = drawn_place();
+  const OnePosition one = drawn_position();
   WaveSlopes expected;
   for (Eigen::Index i = one.part.begin; i < one.part.begin + one.part.count; ++i) {
     const TagPhases& phases = one.phases;
     const Range range = range_to(one.height, one.place, phases.x[i], phases.y[i], phases.z[i]);
     const double angle = phases.wavenumber[i] * (phases.value[i] - range.r);
-    const PlaceVector slope = phases.wavenumber[i] * range.gradient;
+    const PositionVector slope = phases.wavenumber[i] * range.gradient;
     expected.sum += std::polar(1.0, angle);
     expected.in_phase += std::cos(angle) * slope;
     expected.quadrature += std::sin(angle) * slope;
@@ -64,7 +64,7 @@ RC_GTEST_PROP(WaveSlopes, AreThoseOfOneReadAfterTheOther, ()) {
     expected.squares += slope * slope.transpose();
   }
   const WaveSlopes slopes = wave_slopes(one.phases, one.part, one.height, one.place);
-  // Of up to sixty reads with up to 80 rad/m, or 4,000 by q where that is 1 cm.
+  // For up to sixty reads with up to 80 rad/m, or 4,000 with respect to q if the range is 1 cm.
   RC_ASSERT(std::abs(slopes.sum - expected.sum) < 1e-11);
   RC_ASSERT((slopes.in_phase - expected.in_phase).norm() < 1e-9);
   RC_ASSERT((slopes.quadrature - expected.quadrature).norm() < 1e-9);
@@ -74,7 +74,7 @@ RC_GTEST_PROP(WaveSlopes, AreThoseOfOneReadAfterTheOther, ()) {
 }
 
 RC_GTEST_PROP(WaveSlopes, AreTheSameBitsForEachSetOfInstructions, ()) {
-  const OnePlace one = drawn_place();
+  const OnePosition one = drawn_position();
   const auto by = [&](InstructionSet set) {
     return wave_slopes(one.phases, one.part, one.height, one.place, set);
   };

@@ -19,7 +19,7 @@ Tile some_places(made::Rng& rng, double most) {
   return places;
 }
 
-/// One wave in single precision, one operation after the other, as any machine computes it.
+/// One phasor in single precision, one operation after the other, as any machine computes it.
 void add_wave(const SearchRead& read, float dx, float dy, float rest, float& in_phase,
               float& quadrature) {
   const float turns = read.turns - read.turns_per_metre * std::sqrt(dx * dx + dy * dy + rest);
@@ -66,7 +66,7 @@ RC_GTEST_PROP(WaveSums, AreThoseOfTheAngles, ()) {
       in_phase += std::cos(angle);
       quadrature += std::sin(angle);
     }
-    // Single precision knows 100 turns to 4·10⁻⁶ of a turn.
+    // Single precision represents 100 cycles to 4·10⁻⁶ of a cycle.
     const double allowed = 2e-4 * static_cast<double>(reads.size());
     RC_ASSERT(std::abs(static_cast<double>(sums.in_phase[k]) - in_phase) < allowed);
     RC_ASSERT(std::abs(static_cast<double>(sums.quadrature[k]) - quadrature) < allowed);

@@ -14,7 +14,7 @@ namespace {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-/// The point of an edge at `z`, which one end is below and the other is not.
+/// Point at height `z` of an edge with one end below `z` and the other not.
 Eigen::Vector2d at_height(const Eigen::Vector3d& below, const Eigen::Vector3d& above, double z) {
   const double share = (z - below.z()) / (above.z() - below.z());
   return (below + share * (above - below)).head<2>();
@@ -27,7 +27,7 @@ std::optional<Segment> cut(const Triangle& triangle, double z) {
     const Eigen::Vector3d& a = triangle.at(i);
     const Eigen::Vector3d& b = triangle.at((i + 1) % 3);
     if ((a.z() < z) == (b.z() < z)) continue;
-    // From below, whichever triangle asks, so that both get the same bits.
+    // Always from below, so that both triangles of an edge get identical bits.
     ends.at(count++) = a.z() < z ? at_height(a, b, z) : at_height(b, a, z);
   }
   if (count != 2) return std::nullopt;
@@ -50,17 +50,17 @@ std::optional<Segment> clipped(const Segment& segment, const Square& square) {
     last = std::min(last, std::max(low / along[axis], high / along[axis]));
   }
   if (!(first <= last)) return std::nullopt;
-  // Ends that are inside stay as they are, bit by bit.
+  // Ends inside the square stay unchanged, bit by bit.
   return Segment{first > 0.0 ? Eigen::Vector2d(segment.from + first * along) : segment.from,
                  last < 1.0 ? Eigen::Vector2d(segment.from + last * along) : segment.to};
 }
 
-/// The line in which a plane that is not level cuts the height, longer than the square.
+/// Line in which an inclined plane intersects the height, longer than the square.
 std::optional<Segment> cut(const Plane& plane, const RigidTransform& X_WC, double z,
                            const Square& within) {
   const Eigen::Vector3d normal = X_WC.rotation * plane.normal.normalized();
   const Eigen::Vector2d level = normal.head<2>();
-  // Less of a slope than 1e-9 is a level floor that was turned about z.
+  // A slope below 1e-9 is a level floor that was rotated about z.
   if (!(level.norm() > 1e-9)) return std::nullopt;
   const Eigen::Vector3d& p = X_WC.translation;
   const double offset = normal.dot(p) - normal.z() * z - level.dot(within.centre);

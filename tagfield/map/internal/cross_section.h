@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A world cut at one height.
+/// Cross-section of a world at one height.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace tagfield {
 
-/// A piece of a surface in the plane of the cut [m, world].
+/// Section of a surface in the cutting plane [m, world].
 struct Segment {
   Eigen::Vector2d from;
   Eigen::Vector2d to;
@@ -22,9 +22,9 @@ struct Square {
   double half = 0.0;       ///< Half of a side [m].
 };
 
-/// Where the surfaces of all collisions pass the height `z_m`, as far as they are in `within`; a
-/// plane is endless. Where two triangles share an edge, their segments share an end, to the bit.
-/// Points at z_m itself count as above it, so each closed solid gives closed outlines.
+/// Intersections of the surfaces of all collisions with the height `z_m`, clipped to `within`;
+/// planes are infinite. If two triangles share an edge, their segments share a bit-identical end
+/// point. Points at z_m itself count as above it, so that closed solids give closed outlines.
 /// Throws Error as world_mesh() does.
 std::vector<Segment> cross_section(const Scene& scene, double z_m, const Square& within);
 

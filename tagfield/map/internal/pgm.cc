@@ -11,7 +11,7 @@
 namespace tagfield {
 namespace {
 
-/// A side of no map is longer; the product of two fits an int64.
+/// Maximum side of a map; the product of two fits into an int64.
 constexpr int kMostPgmCells = 1'000'000;
 constexpr int kMostWhite = 65'535;
 
@@ -37,7 +37,7 @@ class Reader {
     return taken;
   }
 
-  /// Spaces, and comments from # to the line's end.
+  /// Skips white space, and comments from # to the end of the line.
   void skip_spaces() {
     while (left() > 0 && (is_space(bytes_[at_]) || bytes_[at_] == '#')) {
       if (bytes_[at_] == '#') {
@@ -49,7 +49,7 @@ class Reader {
     }
   }
 
-  /// A whole number after at least one space.
+  /// Reads an integer after at least one white-space character.
   int number(const char* what, int least, int most) {
     const std::size_t before = at_;
     skip_spaces();
@@ -67,7 +67,7 @@ class Reader {
     return value;
   }
 
-  /// The one space between the header and the greys of a binary image.
+  /// Skips the single white-space character between header and greys of a binary image.
   void one_space() {
     if (left() == 0 || !is_space(bytes_[at_])) refuse("expected a space before the greys");
     ++at_;
@@ -105,7 +105,7 @@ void read_binary(Reader& reader, GreyImage& image) {
 }
 
 void read_plain(Reader& reader, GreyImage& image) {
-  // A space and a digit at least for each grey.
+  // At least one space and one digit per grey.
   const std::size_t needed = 2 * pixels(image);
   if (reader.left() < needed) wrong_length(reader, image, needed);
   image.greys.reserve(pixels(image));

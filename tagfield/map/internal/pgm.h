@@ -9,17 +9,17 @@
 
 namespace tagfield {
 
-/// A grey image, its rows from the top.
+/// A grey image, with rows from top to bottom.
 struct GreyImage {
   int width = 0;
   int height = 0;
-  int white = 255;  ///< The greatest grey there can be, 1 to 65,535.
+  int white = 255;  ///< Maximum grey value, 1 to 65,535.
   std::vector<std::uint16_t> greys;
 };
 
 /// Reads the bytes of a P5 (binary) or P2 (plain) image; `file` is for messages. Throws Error
 /// "FILE: byte N: …" on anything that is not exactly one image; a newline after the last grey is
-/// let pass. Memory is taken only for greys that the bytes can hold.
+/// accepted. Allocates memory only for as many greys as the bytes can contain.
 GreyImage read_pgm(const std::string& bytes, const std::string& file);
 
 }  // namespace tagfield

@@ -29,7 +29,7 @@ double total_length(const std::vector<Segment>& segments) {
   return sum;
 }
 
-/// Each end, to the bit, is the end of two segments.
+/// Whether each end is, bit by bit, the end of two segments.
 bool is_closed(const std::vector<Segment>& segments) {
   std::map<std::pair<double, double>, int> ends;
   for (const Segment& segment : segments) {
@@ -82,7 +82,7 @@ RC_GTEST_PROP(CrossSection, OfATurnedSolidIsClosedAndOnItsSurface, ()) {
   const RigidTransform X_WC =
       from_xyz_rpy({any(5.0), any(5.0), 0.0}, {any(3.0), any(3.0), any(3.0)});
   const Box box{{1.0 + std::abs(any(3.0)), 1.0 + std::abs(any(3.0)), 1.0 + std::abs(any(3.0))}};
-  const double z = any(0.45);  // Half of the least edge is 0.5 m: the solid is always met.
+  const double z = any(0.45);  // Half of the shortest edge is 0.5 m: the solid is always cut.
   const auto segments = cross_section(scene_of(box, X_WC), z, kEverything);
   RC_ASSERT(is_closed(segments));
   for (const Segment& segment : segments) {
@@ -114,7 +114,7 @@ TEST(CrossSection, AnUprightPlaneIsALineThroughTheWholeSquare) {
 }
 
 TEST(CrossSection, ARampIsMetWhereItReachesTheHeight) {
-  // Rises by 0.1 along x, so it is 0.3 m high at x = 3.
+  // Slope of 0.1 along x, so it is 0.3 m high at x = 3.
   const Plane ramp{Eigen::Vector3d(-0.1, 0.0, 1.0)};
   const auto segments = cross_section(scene_of(ramp), 0.3, {{0.0, 0.0}, 5.0});
   ASSERT_EQ(segments.size(), 1U);
@@ -125,7 +125,7 @@ TEST(CrossSection, ARampIsMetWhereItReachesTheHeight) {
 TEST(CrossSection, ReachesNoFurtherThanTheSquare) {
   const Scene box = scene_of(Box{{20.0, 20.0, 1.0}}, from_translation({10.0, 10.0, 0.0}));
   const auto segments = cross_section(box, 0.0, {{0.0, 0.0}, 5.0});
-  // Of the four sides two reach 5 m into the square.
+  // Two of the four sides extend 5 m into the square.
   EXPECT_NEAR(total_length(segments), 10.0, 1e-12);
   for (const Segment& segment : segments) {
     EXPECT_LE(segment.from.cwiseAbs().maxCoeff(), 5.0);

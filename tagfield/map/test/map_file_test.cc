@@ -16,8 +16,8 @@ namespace {
 using namespace std::string_literals;
 using Cells = std::vector<std::int8_t>;
 
-/// What ROS' map_saver writes for a map of 4 × 2 cells: below all free but one unknown cell, above
-/// all occupied but one.
+/// Output of ROS's map_saver for a map of 4 × 2 cells: the lower row is free except for one unknown
+/// cell, the upper one occupied except for one.
 constexpr const char* kSavedYaml =
     "image: saved.pgm\n"
     "resolution: 0.050000\n"
@@ -35,7 +35,7 @@ std::string yaml_with(const std::string& lines) {
          lines;
 }
 
-/// `yaml_with("")` with one line another.
+/// `yaml_with("")` with one line replaced.
 std::string yaml_but(const std::string& key, const std::string& line) {
   std::string text = yaml_with("");
   const std::size_t begin = text.find(key + ":");
@@ -51,7 +51,7 @@ OccupancyGrid read(const std::string& yaml, const std::string& pgm) {
   return grid;
 }
 
-/// What is said of a YAML beside a good image, without the folder's name.
+/// Error message for a YAML file with a valid image, without the folder's name.
 std::string refusal(const std::string& yaml) {
   const std::string message = error_of([&yaml] { read(yaml, "P5 1 1 255\nA"); });
   const std::size_t name = message.find("/map.yaml");
@@ -123,7 +123,7 @@ TEST(MapFile, NegateTurnsDarkAndLightOver) {
 TEST(MapFile, ScaledGreysAreSharesBetweenTheThresholds) {
   std::string yaml = yaml_but("free_thresh", "free_thresh: 0.25");
   yaml.replace(yaml.find("0.65"), 4, "0.75");
-  // Of 100 greys: occupied 0.2, 0.3, 0.5, 0.7, 0.8; 1 + 98·(occupied − 0.25)/0.5, cut to a whole.
+  // With 100 greys: occupied 0.2, 0.3, 0.5, 0.7, 0.8; 1 + 98·(occupied − 0.25)/0.5, truncated.
   EXPECT_EQ(read(yaml + "mode: scale\n", "P2 5 1 100 80 70 50 30 20").cells,
             (Cells{0, 10, 50, 89, 100}));
 }

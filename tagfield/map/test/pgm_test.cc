@@ -39,7 +39,7 @@ TEST(Pgm, CommentsStandBetweenTheNumbers) {
   const GreyImage image =
       read_pgm("P5#one\n# CREATOR: 0.05 m/pix\n2#two\r\n# 99\n 1\n#three\n255\n#!"s, "map.pgm");
   EXPECT_EQ(image.width, 2);
-  // After the greatest grey all is greys, a # as well.
+  // After the maximum grey, everything is a grey value, even a #.
   EXPECT_EQ(image.greys, (std::vector<std::uint16_t>{'#', '!'}));
   EXPECT_EQ(read_pgm("P2 1 1 255 7 # the end", "map.pgm").greys.size(), 1U);
 }
@@ -76,7 +76,7 @@ TEST(Pgm, RefusesBadHeaders) {
 }
 
 TEST(Pgm, NeverTrustsASize) {
-  // None of these takes memory for what the header claims, or overflows on the way.
+  // None of these allocates memory for the size that the header claims, or overflows.
   EXPECT_TRUE(contains(pgm_refusal("P5 1000000 1000000 255\nA"),
                        "1000000 × 1000000 cells need 1000000000000 bytes, and 1 are there"));
   EXPECT_TRUE(contains(pgm_refusal("P2 1000000 1000000 255\n1"), "need 2000000000000 bytes"));

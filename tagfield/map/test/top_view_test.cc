@@ -22,7 +22,7 @@ double signed_area(const Polygon& ring) {
   return sum;
 }
 
-/// Whether the even-odd rule fills (x, y): rays to the right that cross an odd number of edges.
+/// Whether the even-odd rule fills (x, y): a ray to the right crosses an odd number of edges.
 bool is_filled(const Silhouette& silhouette, double x, double y) {
   bool filled = false;
   for (const Polygon& ring : silhouette.rings) {
@@ -36,7 +36,7 @@ bool is_filled(const Silhouette& silhouette, double x, double y) {
   return filled;
 }
 
-/// Of what the even-odd rule fills, where no rings cross: a ring within another is a hole.
+/// Area filled by the even-odd rule if no rings cross: a ring within another is a hole.
 double filled_area(const Silhouette& silhouette) {
   double sum = 0.0;
   for (const Polygon& ring : silhouette.rings) sum += signed_area(ring);
@@ -75,7 +75,7 @@ TEST(TopView, RotatedBoxKeepsItsArea) {
 }
 
 TEST(TopView, OverlappingTrianglesCountOnce) {
-  // Two right triangles of area 2 whose common part is the triangle (0,0) (2,0) (1,1), of area 1.
+  // Two right triangles of area 2 that overlap in the triangle (0,0) (2,0) (1,1), of area 1.
   const TriangleMesh mesh = {{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 1}, {0, 0, 1}, {2, 0, 1}},
                              {{0, 1, 2}, {3, 4, 5}}};
   const Silhouette view = only(top_view(seen_scene(mesh_of(mesh)), -1.0, 2.0, 0.0));
@@ -93,7 +93,7 @@ TEST(TopView, WallTallerThanTheBandStillShows) {
 }
 
 TEST(TopView, BandCutsSlopes) {
-  // A ramp that rises by 1 m over 1 m: the band sees the part between its two heights.
+  // A ramp that rises by 1 m over 1 m: the band contains the part between its two heights.
   const TriangleMesh mesh = {{{0, 0, 0}, {1, 0, 1}, {1, 2, 1}, {0, 2, 0}}, {{0, 1, 2}, {0, 2, 3}}};
   const Silhouette view = only(top_view(seen_scene(mesh_of(mesh)), 0.25, 0.75, 0.0));
   EXPECT_NEAR(filled_area(view), 0.5 * 2.0, 1e-6);
@@ -171,7 +171,7 @@ RC_GTEST_PROP(TopView, FillsWhatAnyTriangleCovers, ()) {
   }
   const auto views = top_view(seen_scene(mesh_of(mesh)), 0.0, 1.0, 0.0);
   const Silhouette view = views.empty() ? Silhouette{} : views.front();
-  // Probes on a finer grid, a little off all lines between grid points that matter here.
+  // Probes on a grid, slightly off all relevant lines between grid points.
   for (double x = 0.3137; x < 20.0; x += 1.0) {
     for (double y = 0.2718; y < 20.0; y += 1.0) {
       bool covered = false;

@@ -22,7 +22,7 @@ void add_box(Scene& scene, const Eigen::Vector2d& low, const Eigen::Vector2d& hi
 }
 
 /// Four walls 0.2 m thick around free ground from (0, 0) to (6, 4), and a box in it from (2, 1) to
-/// (3, 3), all off the cells' borders by 0.02 m.
+/// (3, 3), all offset from the cells' borders by 0.02 m.
 Scene room() {
   constexpr double o = 0.02;
   Scene scene;
@@ -54,8 +54,8 @@ TEST(TrueMap, OfARoomWithABox) {
   EXPECT_EQ(value_at(grid, 6.9, 2.0), -1);    // Outdoors.
   EXPECT_EQ(value_at(grid, 6.02, 2.0), 100);  // A wall's near face.
   EXPECT_EQ(value_at(grid, 2.02, 2.0), 100);
-  // Faces lie in cells 0 and 60, 0 and 40; the box' in 20 to 30 and 10 to 30, rims included. Of the
-  // free ground 59 × 39 cells are left, less the box' 11 × 21.
+  // Wall faces are in cells 0 and 60 along x, 0 and 40 along y, those of the box in 20 to 30 and 10
+  // to 30, inclusive. This leaves 59 × 39 free cells, minus the box's 11 × 21.
   EXPECT_EQ(count(grid, 0), 59 * 39 - 11 * 21);
   EXPECT_EQ(count(grid, 100), 2 * 61 + 2 * 39 + 2 * 11 + 2 * 19);
 }
@@ -110,7 +110,7 @@ TEST(TrueMap, SurfacesOnBordersAreInTheGreaterCell) {
 
 TEST(TrueMap, RoomsThatCannotBeEnteredAreUnknown) {
   Scene scene = room();
-  // A closet around (5, 3) of walls without thickness: an open box of a mesh would do; here solids.
+  // A closet around (5, 3). Its walls could be a mesh without thickness; here they are solids.
   add_box(scene, {4.52, 2.52}, {5.52, 2.62});
   add_box(scene, {4.52, 3.42}, {5.52, 3.52});
   add_box(scene, {4.52, 2.52}, {4.62, 3.52});
@@ -127,7 +127,7 @@ TEST(TrueMap, RoomsThatCannotBeEnteredAreUnknown) {
 }
 
 RC_GTEST_PROP(TrueMap, WallsOfAnySlantAreTight, ()) {
-  // A turned room without a door: free ground never gets out, and its area is the room's.
+  // A rotated room without a door: free cells stay inside, and their area is that of the room.
   const double yaw = 1e-3 * *rc::gen::inRange(-3000, 3000);
   const double x = 1e-3 * *rc::gen::inRange(-3000, 3000);
   const double resolution = 1e-3 * *rc::gen::inRange(20, 200);
@@ -137,10 +137,10 @@ RC_GTEST_PROP(TrueMap, WallsOfAnySlantAreTight, ()) {
   const OccupancyGrid grid = true_map(scene, 0.3, {x, 1.0}, resolution);
   RC_ASSERT(grid.cells.front() == -1);
   const auto area = static_cast<double>(count(grid, 0)) * resolution * resolution;
-  // The walls' cells take less than two cells along the outline of about 16 m.
+  // The walls' cells occupy less than two cells along the outline of about 16 m.
   RC_ASSERT(area < 15.6);
   RC_ASSERT(area > 15.0 - 2.0 * 16.5 * resolution);
-  // Each occupied cell borders on free ground; no free one borders on unknown at a side.
+  // Each occupied cell is adjacent to a free one; no free cell shares a side with an unknown one.
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {
       if (grid.at(u, v) != 0) continue;
@@ -159,7 +159,7 @@ RC_GTEST_PROP(TrueMap, MarksTheCellsThatASurfacePassesAndNoOthers, ()) {
   scene.collisions = {
       {"box", Box{{4.0, 3.0, 2.0}}, from_xyz_rpy({centre.x(), centre.y(), 0.5}, {0.0, 0.0, yaw})}};
   const OccupancyGrid grid = true_map(scene, 0.3, {5.0, 5.0}, 0.1);
-  // Points along the four sides, one for each millimetre.
+  // Points along the four sides, one per millimetre.
   std::vector<bool> passed(grid.cells.size(), false);
   for (int mm = 0; mm <= 14'000; ++mm) {
     const double s = 1e-3 * mm;
@@ -175,17 +175,17 @@ RC_GTEST_PROP(TrueMap, MarksTheCellsThatASurfacePassesAndNoOthers, ()) {
     if (passed[i] && std::abs(yaw) > 1e-3) RC_ASSERT(grid.cells[i] == 100);
     unseen += grid.cells[i] == 100 && !passed[i] ? 1 : 0;
   }
-  // Corners of cells that are cut by less than a millimetre.
+  // Cells cut at a corner by less than a millimetre.
   RC_ASSERT(unseen <= 12);
 }
 
 TEST(TrueMap, ReachesNoFurtherThanAsked) {
   const OccupancyGrid grid = true_map(room(), 0.3, {1.0, 2.0}, 0.1, 1.5);
-  // Along x and along y from −0.5 m to 2.5 m and 0.5 m to 3.5 m: the western wall and the box.
+  // From −0.5 m to 2.5 m along x and 0.5 m to 3.5 m along y: the western wall and the box.
   EXPECT_EQ(value_at(grid, 0.02, 2.0), 100);
   EXPECT_EQ(value_at(grid, 2.02, 2.0), 100);
   EXPECT_EQ(value_at(grid, 1.0, 0.55), 0);
-  EXPECT_EQ(value_at(grid, 1.0, 0.45), -1);  // Free, but who knows what is between.
+  EXPECT_EQ(value_at(grid, 1.0, 0.45), -1);  // Free, but beyond the reach.
   EXPECT_LT(grid.width, 60);
 }
 
@@ -236,7 +236,7 @@ TEST(CompareMaps, AMapIsAsItself) {
 }
 
 TEST(CompareMaps, AMapMayStandAnywhereInItsFrame) {
-  // The same walls in a larger map, whose cells are off by a third of a cell.
+  // The same walls in a larger map, whose cells are shifted by a third of a cell.
   const OccupancyGrid small = walls();
   OccupancyGrid large;
   large.width = 60;
@@ -257,20 +257,20 @@ TEST(CompareMaps, AMapMayStandAnywhereInItsFrame) {
 
 TEST(CompareMaps, CountsWhatIsMissing) {
   OccupancyGrid map = walls();
-  // The left wall is gone, all but one cell; two free cells are not known.
+  // The left wall is missing except for one cell; two free cells are unknown.
   for (int y = 6; y <= 23; ++y)
     map.cells[map.index(5, y)] = y == 15 ? std::int8_t{100} : std::int8_t{0};
   map.cells[map.index(20, 20)] = -1;
   map.cells[map.index(21, 20)] = 40;
   const MapComparison result = compare_maps(map, walls());
   EXPECT_EQ(result.mapped_cells, kWallCells - 17);
-  // Found are the cell, its two neighbours, and those next to the corners: 13 of 18 are not.
+  // Found: the cell, its two neighbours, and those next to the corners; 13 of 18 are not.
   EXPECT_DOUBLE_EQ(result.found_share, 1.0 - 13.0 / kWallCells);
   EXPECT_EQ(result.false_share, 0.0);
   EXPECT_DOUBLE_EQ(result.known_share, 1.0 - 2.0 / (28.0 * 18.0));
 }
 
-/// `walls()` as a map whose origin is off.
+/// `walls()` as a map with a shifted origin.
 OccupancyGrid shifted(double cells) {
   OccupancyGrid map = walls();
   map.origin.x() += 0.05 * cells;
@@ -282,13 +282,14 @@ TEST(CompareMaps, OfAShiftedMap) {
   EXPECT_EQ(one.found_share, 1.0);
   EXPECT_EQ(one.false_share, 0.0);
   const MapComparison two = compare_maps(shifted(2.0), walls());
-  // Two cells off, of the upright walls only the right one's ends are found, beside the level ones;
-  // nothing is false.
+  // Shifted by two cells: of the walls along y, only the ends of the right one are found, next to
+  // the walls along x; nothing is false.
   EXPECT_DOUBLE_EQ(two.found_share, 1.0 - (20.0 + 16.0) / kWallCells);
   EXPECT_EQ(two.false_share, 0.0);
   const MapComparison five = compare_maps(shifted(5.0), walls());
-  // Five cells off, 14 of each upright wall's 18 have no true wall within two cells, and of the
-  // right one also the ends and the level walls' three last cells that stick out.
+  // Shifted by five cells: 14 of the 18 cells of each wall along y have no true wall within two
+  // cells; for the right one, neither do its ends and the last three, protruding cells of the walls
+  // along x.
   EXPECT_DOUBLE_EQ(five.false_share, (14.0 + 20.0 + 2.0 * 2.0) / kWallCells);
 }
 
@@ -299,9 +300,9 @@ TEST(CompareMaps, CountsADoubleWall) {
   const MapComparison result = compare_maps(map, walls());
   EXPECT_EQ(result.found_share, 1.0);
   EXPECT_DOUBLE_EQ(result.false_share, 8.0 / (kWallCells + 8.0));
-  // Within eight rows of it, and eight columns of its column on the level walls: the left wall's
-  // cells y = 5 … 24 all are (10 − 8 to 17 + 8), so are the lower wall's (10 − 5 rows away) cells
-  // x = 5 … 18 and the upper wall's (24 − 17 rows away): 20 + 2·13.
+  // Cells within eight rows of it, and for the walls along x within eight columns: all of the left
+  // wall's cells y = 5 … 24 (10 − 8 to 17 + 8), the lower wall's cells x = 5 … 18 (10 − 5 rows
+  // away) and the upper wall's (24 − 17 rows away): 20 + 2·13.
   EXPECT_DOUBLE_EQ(result.double_wall_share, (20.0 + 13.0 + 13.0) / kWallCells);
 }
 
@@ -313,7 +314,7 @@ TEST(CompareMaps, AThickWallIsNotADoubleOne) {
   }
   const MapComparison result = compare_maps(map, walls());
   EXPECT_GT(result.false_share, 0.2);
-  // But beside it, along the level walls, it stands across free cells.
+  // But next to it, along the walls along x, it is across free cells.
   OccupancyGrid only = walls();
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 40; ++x) {
@@ -326,7 +327,7 @@ TEST(CompareMaps, AThickWallIsNotADoubleOne) {
 
 TEST(CompareMaps, AWallBehindUnknownCellsIsNotADouble) {
   OccupancyGrid map = walls();
-  // Five cells behind the left wall, with nothing known between.
+  // Five cells behind the left wall, with unknown cells between.
   for (int y = 10; y < 18; ++y) map.cells[map.index(0, y)] = 100;
   EXPECT_EQ(compare_maps(map, walls()).double_wall_share, 0.0);
 }

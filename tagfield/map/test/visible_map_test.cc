@@ -41,8 +41,8 @@ TEST(VisibleMap, KeepsAllOfAnEmptyRoom) {
 }
 
 TEST(VisibleMap, ForgetsTheNookThatNobodyLooksInto) {
-  // The robot stays in the left room, too wide for the gap; of the passage behind it the bend is
-  // out of sight.
+  // The robot stays in the left room, as it is too wide for the gap; the bend of the passage behind
+  // the gap is out of sight.
   const OccupancyGrid truth = grid_of({"###############",  //
                                        "#.......#.....#",  //
                                        "#.......#.###.#",  //
@@ -53,13 +53,13 @@ TEST(VisibleMap, ForgetsTheNookThatNobodyLooksInto) {
                                       0.4);
   const OccupancyGrid seen = visible_map(truth, {1.8, 1.4}, 0.7);
   EXPECT_EQ(row(seen, 3).substr(0, 11), "#.........#");
-  EXPECT_EQ(row(seen, 3).substr(11), "    ");  // behind the wall that it looks at
-  EXPECT_EQ(seen.at(13, 1), -1);               // round the corner
+  EXPECT_EQ(row(seen, 3).substr(11), "    ");  // behind the visible wall
+  EXPECT_EQ(seen.at(13, 1), -1);               // around the corner
   EXPECT_EQ(seen.at(13, 0), -1);               // and its wall
 }
 
 TEST(VisibleMap, AWiderRobotSeesLess) {
-  // Only within the room on the right can one look up the shaft at its end.
+  // The shaft at the end can only be seen from within the corridor on the right.
   const OccupancyGrid truth = grid_of({"###########.#",  //
                                        "#....######.#",  //
                                        "#....######.#",  //

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kRobots = 20'000;
 
-/// Where robots believe to be after `steps` equal increments, each with its noise.
+/// Estimated poses of robots after `steps` equal increments, each with independent noise.
 std::vector<PlanarPose> believed(const PlanarPose& increment, int steps, const OdometryNoise& noise,
                                  std::uint64_t seed) {
   std::vector<PlanarPose> ends;
@@ -45,8 +45,8 @@ Eigen::Matrix3d sample_covariance(const std::vector<PlanarPose>& poses) {
   return (squares - sum * sum.transpose() / n) / (n - 1.0);
 }
 
-/// Whether each entry of two covariances, one or both of them a sample's, differs by less than 6
-/// standard deviations of such a sample's entry, √((cᵢᵢcⱼⱼ + cᵢⱼ²)/n): a false alarm in 1e-8.
+/// Expects each entry of two covariances, one or both of them sampled, to differ by less than 6
+/// standard deviations of a sampled entry, √((cᵢᵢcⱼⱼ + cᵢⱼ²)/n): a false alarm rate of 1e-8.
 void expect_same(const Eigen::Matrix3d& sample, const Eigen::Matrix3d& expected, double samples) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) {
@@ -73,7 +73,7 @@ TEST(OdometryNoise, AMetreAtOnceIsAsAHundredCentimetres) {
   const auto whole = sample_covariance(believed({1.0, 0.0, 0.0}, 1, noise, 1));
   const auto cut = sample_covariance(believed({0.01, 0.0, 0.0}, 100, noise, 2));
   expect_same(whole, cut, 2.0);
-  // And both are what is stated, which has closed forms.
+  // And both equal the stated covariance, which has a closed form.
   const Eigen::Matrix3d stated = increment_covariance({1.0, 0.0, 0.0}, noise);
   expect_same(whole, stated, 1.0);
   expect_same(cut, stated, 1.0);
@@ -84,12 +84,13 @@ TEST(OdometryNoise, AMetreAtOnceIsAsAHundredCentimetres) {
 }
 
 TEST(OdometryNoise, ATurnAtOnceIsAsAHundredSmallOnes) {
-  // Only the heading: which way a robot errs that turns on the spot depends on its headings.
+  // Only the heading: the direction of the position error when turning on the spot depends on the
+  // headings.
   const OdometryNoise noise{0.03, 0.02, 0.02, 0.01};
   const auto whole = sample_covariance(believed({0.0, 0.0, 2.0}, 1, noise, 1));
   const auto cut = sample_covariance(believed({0.0, 0.0, 0.02}, 100, noise, 2));
   const double expected = 0.03 * 0.03 * 2.0;
-  // 6 standard deviations of a variance of 20,000 draws, √(2/n) each.
+  // 6 standard deviations, √(2/n) each, of the variance of 20,000 draws.
   EXPECT_NEAR(whole(2, 2), expected, 0.06 * expected);
   EXPECT_NEAR(cut(2, 2), expected, 0.06 * expected);
   const double way = 0.01 * 0.01 * 2.0;
@@ -102,7 +103,7 @@ TEST(OdometryNoise, AGentleArcIsNearlyAsItsPieces) {
   const BodyVelocity velocity{0.3, 0.2};
   const auto whole = sample_covariance(believed(advance({}, velocity, 2.0), 1, noise, 1));
   const auto cut = sample_covariance(believed(advance({}, velocity, 0.02), 100, noise, 2));
-  // As a chord has less way than its arc, and one direction.
+  // A chord is shorter than its arc and has a single direction.
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(std::sqrt(whole(i, i) / cut(i, i)), 1.0, 0.06) << i;
   }
@@ -116,11 +117,11 @@ RC_GTEST_PROP(OdometryNoise, CovarianceIsThatOfTheDraws, ()) {
   const Eigen::Matrix3d stated = increment_covariance(increment, noise);
   const Eigen::Matrix3d sample = sample_covariance(believed(increment, 1, noise, 3));
   for (int i = 0; i < 3; ++i) {
-    // Of second order are products of two errors of 0.04 at most.
+    // Second-order terms are products of two errors of at most 0.04.
     const double allowed = 0.06 * stated(i, i) + 1e-6;
     RC_ASSERT(std::abs(sample(i, i) - stated(i, i)) < allowed);
   }
-  // Symmetric, and of no negative variance in any direction.
+  // Symmetric and positive semidefinite.
   RC_ASSERT((stated - stated.transpose()).norm() < 1e-15);
   RC_ASSERT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stated).eigenvalues().minCoeff() >
             -1e-12);
@@ -148,7 +149,8 @@ TEST(OdometryNoise, BackwardsIsAsForwards) {
 }
 
 TEST(OdometryNoise, AHairAsideChangesNothing) {
-  // Odometry of a robot that turns on the spot has a little way in some direction or other.
+  // The odometry of a robot that turns on the spot contains a tiny translation in an arbitrary
+  // direction.
   const OdometryNoise noise;
   const Eigen::Matrix3d exact = increment_covariance({0.0, 0.0, 0.1}, noise);
   for (const auto& [x, y] : {std::pair{1e-9, 0.0}, {-1e-9, 0.0}, {0.0, 1e-9}, {0.0, -1e-9}}) {

@@ -58,7 +58,7 @@ TEST(PathFollower, ReachesEachEndWithinItsLimits) {
       {{5.0, 0.0}},
       {{3.0, 0.0}, {3.0, 4.0}, {-1.0, 4.0}},
       {{-4.0, 0.0}},                          // begins by turning around
-      {{4.0, 0.0}, {0.0, 0.2}},               // nearly back again
+      {{4.0, 0.0}, {0.0, 0.2}},               // almost back again
       {{4.0, 4.0}, {4.0, 0.0}, {0.0, 4.0}}};  // crosses itself
   for (const auto& path : paths) {
     const Drive result = drive({0.0, 0.0, 0.0}, path, style);
@@ -72,7 +72,7 @@ TEST(PathFollower, ReachesEachEndWithinItsLimits) {
 
 TEST(PathFollower, RoundsCornersByAtMostTheLookAhead) {
   const Drive result = drive({0.0, 0.0, 0.0}, {{4.0, 0.0}, {4.0, 4.0}}, {0.3, 1.0, 0.5});
-  // The corner is cut, but not by more than the look-ahead's triangle.
+  // The corner is cut, but by no more than the triangle of the look-ahead.
   EXPECT_LT(result.length, 8.0);
   EXPECT_GT(result.length, 8.0 - 2.0 * 0.5);
 }

@@ -16,7 +16,7 @@ PlanarPose any_pose() {
           *rc::gen::inRange(-10'000, 10'000) * 1e-3};
 }
 
-/// The same by a library that knows nothing of this.
+/// Reference from an independent library.
 Eigen::Isometry2d isometry(const PlanarPose& pose) {
   return Eigen::Translation2d(pose.x, pose.y) * Eigen::Rotation2Dd(pose.yaw);
 }
@@ -60,7 +60,7 @@ RC_GTEST_PROP(Transformed, IsATransformOfAPoint, ()) {
   const Eigen::Vector2d p = position_of(any_pose());
   RC_ASSERT((transformed(a, p) - isometry(a) * p).norm() < 1e-9);
   RC_ASSERT((transformed(compose(a, b), p) - transformed(a, transformed(b, p))).norm() < 1e-9);
-  // Distances stay.
+  // Distances are preserved.
   RC_ASSERT(std::abs((transformed(a, p) - position_of(a)).norm() - p.norm()) < 1e-9);
 }
 

@@ -16,7 +16,7 @@ PathFollower straight_path() {
   return PathFollower({0.0, 0.0, 0.0}, {{2.0, 0.0}}, {0.3, 1.0, 0.5});
 }
 
-/// Drives an ideal robot, which has each velocity at once, from `from` to `to` [ms].
+/// Drives an ideal robot, which reaches each velocity instantly, from `from` to `to` [ms].
 PlanarPose drive(RobotDriver& driver, PlanarPose pose, int from, int to) {
   for (int ms = from; ms < to; ++ms) pose = advance(pose, driver.next(pose, at(ms)), 0.001);
   return pose;
@@ -45,7 +45,7 @@ TEST(RobotDriver, ReachesTheEndOfItsPathAndStands) {
   driver.set_path(straight_path());
   const PlanarPose end = drive(driver, {}, 0, 9000);
   EXPECT_TRUE(driver.finished());
-  // Stops within v²/2a = 45 mm beyond, and a decision of 15 mm before.
+  // Stops at most v²/2a = 45 mm beyond the end, or 15 mm, one decision, before it.
   EXPECT_NEAR(end.x, 2.0, 0.05);
   EXPECT_NEAR(end.y, 0.0, 1e-9);
   EXPECT_EQ(driver.next(end, at(9000)).forward, 0.0);

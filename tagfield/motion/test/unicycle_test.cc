@@ -28,7 +28,7 @@ RC_GTEST_PROP(WheelSpeeds, AreTheInverseOfBodyVelocity, ()) {
 }
 
 TEST(Advance, DrivesAQuarterCircle) {
-  // Radius v/ω = 2 m, a quarter turn to the left from the origin along x ends at (2, 2).
+  // Radius v/ω = 2 m: a quarter turn to the left, starting at the origin along x, ends at (2, 2).
   const PlanarPose end = advance({0.0, 0.0, 0.0}, {1.0, 0.5}, kPi);
   EXPECT_NEAR(end.x, 2.0, 1e-12);
   EXPECT_NEAR(end.y, 2.0, 1e-12);

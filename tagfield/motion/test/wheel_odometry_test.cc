@@ -50,7 +50,7 @@ TEST(WheelOdometry, GoesBackTheWayItCame) {
 }
 
 TEST(WheelOdometry, CovarianceIsThatOfNoisyWheels) {
-  // Against a sample of robots whose sides travel with errors of σ = k √d.
+  // Compares with a sample of robots whose sides travel with errors of σ = k √d.
   constexpr double kNoise = 0.01;
   constexpr int kRobots = 4000;
   constexpr int kSteps = 100;

@@ -8,12 +8,12 @@
 namespace tagfield {
 namespace {
 
-/// How a ray walks over the cells along one axis.
+/// Traversal of the cells by a ray along one axis.
 struct Walk {
   int cell = 0;
   int step = 0;
-  double next = 0.0;   ///< Share of the ray at which it enters the next cell.
-  double share = 0.0;  ///< Of the ray for a whole cell.
+  double next = 0.0;   ///< Fraction of the ray at which it enters the next cell.
+  double share = 0.0;  ///< Fraction of the ray for a whole cell.
 };
 
 Walk walk_along(double from, double to) {
@@ -48,7 +48,7 @@ void CellMarks::mark_ray(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
   const std::ptrdiff_t step_y = y.step * static_cast<std::ptrdiff_t>(width);
   for (double entered = 0.0; entered < last;) {
     *cell = 1;
-    // Which border comes first is as good as random, so there is no branch on it.
+    // Which border comes first is practically random, so avoid a branch.
     const bool along_x = x.next < y.next;
     entered = along_x ? x.next : y.next;
     cell += along_x ? step_x : step_y;

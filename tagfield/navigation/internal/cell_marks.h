@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Marks of the cells that the beams of one scan pass.
+/// Marks of the cells that the beams of one scan pass through.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,16 +8,17 @@
 
 namespace tagfield {
 
-/// Cells (x0, y0) to (x0 + width − 1, y0 + height − 1), row by row; 0 where no ray was.
+/// Cells (x0, y0) to (x0 + width − 1, y0 + height − 1) in row-major order; 0 where no ray has
+/// passed.
 struct CellMarks {
   CellMarks(const Eigen::Vector2i& low, const Eigen::Vector2i& high);
 
   int x0, y0, width, height;
   std::vector<char> marked;
 
-  /// Marks the cells that the ray from `from` to `to` enters before the share `last` ≤ 1 of its
-  /// length, where a cell is 1 wide (Amanatides and Woo, 1987). `from` and `to` lie in cells that
-  /// have all their neighbours among these, since rounding may lead one cell too far.
+  /// Marks the cells that the ray from `from` to `to` enters before the fraction `last` ≤ 1 of its
+  /// length, in units of cells (Amanatides and Woo, 1987). `from` and `to` must lie in cells whose
+  /// neighbours are all among these, since rounding may lead one cell too far.
   void mark_ray(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double last);
 
   /// Row y, beginning with cell (x0, y).

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTouch = 1e-9;
 
-/// Shares of the segment that lie within the cell: from, to; to < from where none does.
+/// Range of fractions of the segment that lies within the cell: from, to; to < from if none does.
 std::pair<double, double> share_within(const Eigen::Vector2d& a, const Eigen::Vector2d& b, int x,
                                        int y) {
   const Eigen::Vector2d low(x, y);

@@ -16,7 +16,7 @@ using testing::room_of;
 TEST(DistanceWindow, KnowsTheMapsWalls) {
   const OccupancyGrid room = room_of(10.0, 6.0);
   const DistanceWindow window(room, {}, {1.0, 3.0}, 2.0, 1.5);
-  EXPECT_NEAR(window.at({0.525, 3.0}), 0.5, 1e-6);  // The wall's cells have their centres at 0.025.
+  EXPECT_NEAR(window.at({0.525, 3.0}), 0.5, 1e-6);  // The centres of the wall's cells are at 0.025.
   EXPECT_NEAR(window.at({1.0, 3.0}), 0.975, 1e-6);
   EXPECT_GE(window.at({2.5, 3.0}), 1.5);
   EXPECT_LE(window.at({2.5, 3.0}), 1.6);

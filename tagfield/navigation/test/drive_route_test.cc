@@ -21,7 +21,7 @@ const BoxWorld& empty_hall() {
   return world;
 }
 
-/// Sees the empty_hall with `obstacles` in it for a second from `kStart`.
+/// Senses after seeing the empty_hall with `obstacles` for a second from `kStart`.
 DriveSenses senses_with(const Obstacles& obstacles) {
   DriveSenses senses(kLaser, 0.36);
   senses.set_map(empty_hall().map);
@@ -66,7 +66,7 @@ TEST(DriveRoute, GoesRoundWhatStandsThereForAWhile) {
   EXPECT_GT(farthest_aside(route), 0.6);
   ASSERT_TRUE(route.block_M());
   EXPECT_NEAR(route.block_M()->x(), 3.25, 0.1);
-  // The new way is free.
+  // The new path is free.
   EXPECT_FALSE(route.follow(boxed, kStart, at_second(9.0)));
   EXPECT_FALSE(route.follow(boxed, kStart, at_second(10.0)));
 }

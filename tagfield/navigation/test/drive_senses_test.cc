@@ -79,7 +79,7 @@ TEST(DriveSenses, DistancesCountMapAndScan) {
   const PlanarPose near{3.3, 3.0, 0.0};
   EXPECT_NEAR(result.surroundings(window, near, Time{}).clear_now_m, 0.45, 0.03);
   const PlanarPose at_wall{1.0, 0.4, 0.0};
-  // The wall's face is somewhere in its cells.
+  // The wall's face is somewhere within its cells.
   EXPECT_NEAR(result.surroundings(window, at_wall, Time{}).clear_now_m, 0.375, 0.026);
   EXPECT_NEAR(result.distance_to_map({1.0, 0.5}), 0.5, 0.05);
   EXPECT_EQ(result.distance_to_map({-50.0, 0.5}), DriveSenses::kMostToMap);

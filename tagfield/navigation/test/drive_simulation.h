@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A robot that drives in a world of its own, for tests: unicycle, laser, people; and what it
-/// touches.
+/// A robot that drives in a small simulated world, for tests: unicycle, laser, people, and
+/// collisions.
 #pragma once
 
 #include <algorithm>
@@ -19,18 +19,18 @@
 
 namespace tagfield::testing {
 
-/// A P3-AT from above.
+/// Footprint of a P3-AT.
 inline constexpr double kHalfLength = 0.255;
 inline constexpr double kHalfWidth = 0.25;
 
-/// Distance from the robot's outline to a point [m]; 0 inside.
+/// Distance from the robot's footprint to a point [m]; 0 inside.
 inline double outline_distance(const PlanarPose& pose, const Eigen::Vector2d& p) {
   const PlanarPose q = between(pose, {p.x(), p.y(), 0.0});
   return std::hypot(std::max(0.0, std::abs(q.x) - kHalfLength),
                     std::max(0.0, std::abs(q.y) - kHalfWidth));
 }
 
-/// Edges of the world's solids from above, between two heights, sorted into squares.
+/// Edges of the world's solids seen from above, between two heights, in a grid of square bins.
 class Edges {
  public:
   Edges() = default;
@@ -50,10 +50,11 @@ class Edges {
     }
   }
 
-  /// Whether an edge passes through the robot's outline.
+  /// Whether an edge passes through the robot's footprint.
   [[nodiscard]] bool touch(const PlanarPose& pose) const { return distance(pose) <= 0.0; }
 
-  /// From the outline to the nearest edge [m], at most about kReach less its diagonal.
+  /// Distance from the footprint to the nearest edge [m], at most about kReach minus half its
+  /// diagonal.
   [[nodiscard]] double distance(const PlanarPose& pose) const {
     const auto found = squares_.find({square(pose.x), square(pose.y)});
     double nearest = kReach - std::hypot(kHalfLength, kHalfWidth);
@@ -66,7 +67,7 @@ class Edges {
   static constexpr double kReach = 1.0;
   static int square(double x) { return static_cast<int>(std::floor(x)); }
 
-  /// By points a millimetre apart near the robot: slow, and hard to get wrong.
+  /// Samples points a millimetre apart near the robot: slow, but hard to get wrong.
   static double distance(const PlanarPose& pose, const Eigen::Vector2d& a,
                          const Eigen::Vector2d& b) {
     const Eigen::Vector2d way = b - a;
@@ -87,14 +88,14 @@ class Edges {
   std::map<std::pair<int, int>, std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>> squares_;
 };
 
-/// One drive and what came of it.
+/// One drive and its outcome.
 struct DriveSimulation {
   const RayScene* world = nullptr;
-  const Edges* edges = nullptr;  ///< Or nullptr: then nothing is measured.
+  const Edges* edges = nullptr;  ///< May be nullptr: then nothing is measured.
   LaserParameters laser;
   SpeedLimits limits;
-  std::function<Obstacles(Time)> obstacles_at;  ///< Or nullptr.
-  /// Error of the believed pose, in the robot's frame.
+  std::function<Obstacles(Time)> obstacles_at;  ///< May be nullptr.
+  /// Error of the estimated pose, in the robot's frame.
   std::function<PlanarPose(Time)> belief_error;
   std::uint64_t seed = 1;
 
@@ -116,7 +117,7 @@ struct DriveSimulation {
     return belief_error ? compose(pose, belief_error(now())) : pose;
   }
 
-  /// One step: a scan where one is due, a decision, motion.
+  /// One step: a scan if one is due, a decision, motion.
   void advance_by(GoalDriver& driver) {
     const double dt = 1.0 / kStepsPerSecond;
     if (step % 2 == 0) {
@@ -155,7 +156,7 @@ struct DriveSimulation {
     return transformed({box.centre.x(), box.centre.y(), box.yaw}, {x, y});
   }
 
-  /// Until the driver is done, or `most_s` have passed.
+  /// Runs until the driver is done or `most_s` seconds have passed.
   void run(GoalDriver& driver, double most_s) {
     const std::int64_t last = step + static_cast<std::int64_t>(most_s * kStepsPerSecond);
     while (driver.state() == DriveState::kDriving && step < last) advance_by(driver);

@@ -41,7 +41,7 @@ TEST(DriveWatch, DetoursRenewPatienceAFewTimesOnly) {
   }
   watch.detour(30.0, at(now + 10.0));
   EXPECT_EQ(watch.waited_s(at(now + 10.0)), 10.0);
-  // Progress that counts gives them back.
+  // Sufficient progress restores the detours.
   watch.update(20.0, at(now + 11.0));
   watch.detour(25.0, at(now + 20.0));
   EXPECT_EQ(watch.waited_s(at(now + 20.0)), 0.0);

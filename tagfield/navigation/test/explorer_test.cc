@@ -19,7 +19,7 @@ using testing::room_of;
 
 constexpr double kSight = 5.0;
 
-/// Two rooms with a door between, a box that stands 0.3 m from a wall, and a closed cupboard.
+/// Two rooms with a door between them, a box 0.3 m from a wall, and a closed cupboard.
 OccupancyGrid true_house() {
   OccupancyGrid map = room_of(10.0, 6.0);
   paint(map, {5.0, 0.0}, {5.2, 6.0}, 100);
@@ -29,7 +29,7 @@ OccupancyGrid true_house() {
   return map;
 }
 
-/// Shows on `map` what an all-round laser of short sight at `place` sees of the truth.
+/// Enters into `map` what a short-range 360° laser at `place` sees of the ground truth.
 void look_around(const OccupancyGrid& truth, const Eigen::Vector2d& place, OccupancyGrid& map) {
   for (int i = 0; i < 1440; ++i) {
     const double angle = i * kTwoPi / 1440;
@@ -48,7 +48,7 @@ struct Tour {
   Explorer explorer;
 };
 
-/// Carries a robot to each goal at once.
+/// Moves a robot to each goal instantly.
 Tour explored(const OccupancyGrid& truth, const PlanarPose& start, int most_goals) {
   Tour tour{truth, {}, Explorer({}, start)};
   tour.map.cells.assign(truth.cells.size(), -1);
@@ -96,7 +96,7 @@ TEST(Explorer, StandsClearOfAllAndKnowsWhenToGoHome) {
 }
 
 TEST(Explorer, LooksAroundWhereAFrontierStaysOpenAndThenLeavesIt) {
-  // Beyond the line x = 4 the laser never shows anything, as through a curtain.
+  // The laser never sees anything beyond the line x = 4, as behind a curtain.
   OccupancyGrid map = room_of(8.0, 6.0);
   paint(map, {4.0, 0.0}, {8.0, 6.0}, -1);
   Explorer explorer({}, {1.0, 3.0, 0.0});
@@ -127,7 +127,7 @@ TEST(Explorer, GoesOnToWhatIsStillOpen) {
   Explorer explorer({}, {1.5, 1.5, 0.0});
   ASSERT_TRUE(explorer.next(map, map, {1.5, 1.5, 0.0}, false));
   EXPECT_FALSE(explorer.next(map, map, {1.6, 1.5, 0.0}, false));
-  // All of it shows before the robot is there: what was left to see is nothing.
+  // Everything becomes visible before the robot gets there: nothing is left to see.
   const auto home = explorer.next(truth, truth, {1.7, 1.5, 0.0}, false);
   ASSERT_TRUE(home);
   EXPECT_EQ(home->x, 1.5);
@@ -136,7 +136,7 @@ TEST(Explorer, GoesOnToWhatIsStillOpen) {
 }
 
 TEST(Explorer, LooksOverWhatIsOnlyInTheWay) {
-  // A low step in the middle: not on the map, but not to be driven on.
+  // A low step in the middle: not on the map, but not drivable.
   OccupancyGrid map = room_of(10.0, 6.0);
   paint(map, {6.0, 0.0}, {10.0, 6.0}, -1);
   OccupancyGrid drivable = map;

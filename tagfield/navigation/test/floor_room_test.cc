@@ -22,7 +22,7 @@ TEST(FloorRoom, WeighsByTheDistanceToWalls) {
   const FloorRoom floor = floor_room(room_of(10.0, 6.0), {}, std::nullopt, {0.36, 0.05, 0.3});
   EXPECT_EQ(weight_at(floor, {0.01, 3.0}), 0);          // in the wall
   EXPECT_EQ(weight_at(floor, {0.425 - 0.01, 3.0}), 0);  // 0.4 m between centres
-  // 0.45 m: lacks 0.26 of 0.3 m.
+  // 0.45 m: 0.26 short of 0.3 m.
   EXPECT_EQ(weight_at(floor, {0.475, 3.0}), std::lround(4 + 16 * 0.8667 * 0.8667));
   EXPECT_EQ(weight_at(floor, {0.775, 3.0}), FloorRoom::kFar);
   EXPECT_EQ(weight_at(floor, {5.0, 3.0}), FloorRoom::kFar);

@@ -18,7 +18,7 @@ namespace {
 using testing::paint;
 using testing::room_of;
 
-/// A room whose right part is unknown beyond a wall with a door of 1.2 m, and a niche on the left.
+/// A room whose right part, behind a wall with a 1.2 m door, is unknown, with a niche on the left.
 OccupancyGrid house() {
   OccupancyGrid map = room_of(10.0, 6.0);
   paint(map, {5.0, 0.0}, {5.2, 6.0}, 100);
@@ -71,7 +71,7 @@ TEST(Frontiers, NearAndLargeOnesComeFirst) {
 }
 
 TEST(Frontiers, TheGroundUnderTheRobotIsKnown) {
-  // All that a laser has seen ahead, and nothing behind.
+  // The laser has seen everything ahead, and nothing behind.
   OccupancyGrid map = room_of(10.0, 6.0);
   paint(map, {0.0, 0.0}, {2.0, 6.0}, -1);
   const std::vector<Frontier> found = frontiers(map, map, {1.9, 3.0, 0.0}, {}, {});
@@ -86,7 +86,7 @@ TEST(Frontiers, NothingFromNowhere) {
   EXPECT_TRUE(frontiers({}, {}, {1.0, 1.0, 0.0}, {}, {}).empty());
 }
 
-/// Whether a beam about the heading of `goal` comes to unknown ground before any wall.
+/// Whether a beam near the heading of `goal` reaches unknown space before any wall.
 bool sees_unknown(const OccupancyGrid& map, const PlanarPose& goal, const Eigen::Vector2d& robot) {
   for (int i = -200; i <= 200; ++i) {
     const double angle = goal.yaw + 0.003 * i;
@@ -94,7 +94,7 @@ bool sees_unknown(const OccupancyGrid& map, const PlanarPose& goal, const Eigen:
         position_of(goal) + 9.0 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     std::int8_t last = 0;
     along_line(map, position_of(goal), end, [&](int x, int y, double) {
-      // The ground under the robot counts as free.
+      // The floor under the robot counts as free.
       const bool is_under = (map.centre_of(x, y) - robot).norm() <= 0.36;
       last = is_under ? std::int8_t{0} : map.at(x, y);
       return last == 0;

@@ -47,7 +47,7 @@ TEST(GlobalPlanner, GoesRoundAndKeepsItsDistance) {
       nearest = std::min(nearest, off.cwiseMax(0.0).norm());
     }
   }
-  // There is room: all of the clearance but the corner that is saved.
+  // There is enough room: the full clearance, except where a corner is cut.
   EXPECT_GT(nearest, 0.55);
   // Straight to the corner's circle of 0.7 m, around it, and on.
   EXPECT_LT(length_of(found.way), 11.0);
@@ -112,7 +112,7 @@ TEST(GlobalPlanner, FaultsOfTheGoal) {
   EXPECT_EQ(fault({0.45, 4.0, 0.0}), "goal (0.45, 4.00): nearer than 0.41 m to an obstacle");
 }
 
-/// Dijkstra's algorithm again, in another way: the costs of all cells by Bellman's equations.
+/// Reference for Dijkstra's algorithm: the costs of all cells by Bellman's equations.
 std::vector<std::int64_t> relaxed_costs(const FloorRoom& floor, const Eigen::Vector2i& from) {
   const OccupancyGrid& grid = floor.grid;
   std::vector<std::int64_t> costs(grid.cells.size(), -1);
@@ -164,7 +164,7 @@ RC_GTEST_PROP(GlobalPlannerProperties, SpreadFindsTheCheapestWays, ()) {
 TEST(GlobalPlanner, WayBackIsARowOfNeighbours) {
   const FloorRoom floor = floor_room(room_of(6.0, 6.0), {}, std::nullopt, kSize);
   const Spread ways = spread(floor, {20, 20});
-  const std::vector<Eigen::Vector2i> way = way_back(floor, ways, {90, 60});
+  const std::vector<Eigen::Vector2i> way = backtrack(floor, ways, {90, 60});
   EXPECT_EQ(way.front(), Eigen::Vector2i(90, 60));
   EXPECT_EQ(way.back(), Eigen::Vector2i(20, 20));
   for (std::size_t i = 1; i < way.size(); ++i) {

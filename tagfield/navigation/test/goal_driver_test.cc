@@ -79,7 +79,7 @@ TEST(GoalDriver, RefusesWhereTheRobotIsWrong) {
 }
 
 TEST(GoalDriver, RefusesWhereThereIsNoWay) {
-  // A wall across with a gap of 0.7 m, which the robot's circle of 0.82 m does not pass.
+  // A wall across the hall with a gap of 0.7 m, too narrow for the robot's circle of 0.82 m.
   auto boxes = walls({0.0, 0.0}, {10.0, 6.0});
   boxes.push_back({{5.0, 0.0}, {5.2, 3.0}});
   boxes.push_back({{5.0, 3.7}, {5.2, 6.0}});
@@ -144,7 +144,7 @@ TEST(GoalDriver, StaysWithinTheDrivesLimits) {
   BodyVelocity velocity;
   double fastest = 0.0;
   for (int i = 0; i < 1200 && driver.state() == DriveState::kDriving; ++i) {
-    // Decisions and scans in step, at 20 Hz; the command is driven as it is.
+    // Decisions and scans are in step, at 20 Hz; the command is executed as it is.
     const RigidTransform X_WR = to_transform(simulation.pose);
     LaserScan scan = simulate_scan(
         hall().rays, laser, i, [&](Time) { return X_WR; }, nullptr, 1, 1);
@@ -180,7 +180,8 @@ TEST(GoalDriver, SameCallsGiveTheSameMotion) {
 }
 
 TEST(GoalDriver, LetsItselfOutFromNearAWall) {
-  // Nearer than radius and margin, yet the outline is free: along the wall, before it, at a slant.
+  // Nearer than radius and margin, yet the footprint is free: parallel to the wall, facing it, at
+  // an angle.
   for (const PlanarPose& start :
        {PlanarPose{3.0, 0.33, 0.0}, PlanarPose{3.0, 0.31, kPi}, PlanarPose{3.0, 0.3, -kPi / 2.0},
         PlanarPose{3.0, 0.36, 1.0}, PlanarPose{3.0, 0.3, kPi / 2.0}}) {
@@ -207,7 +208,8 @@ TEST(GoalDriver, DoesNotDriveWithoutScans) {
   EXPECT_NE(driver.reason().find("no laser scan"), std::string::npos) << driver.reason();
 }
 
-/// Drives for 4 s, then hands `spoil` each scan; how far the robot drives after another second.
+/// Drives for 4 s, then passes each scan to `spoil`. Returns how far the robot drives after another
+/// second.
 double driven_after(const std::function<void(LaserScan&)>& spoil) {
   GoalDriver driver = driver_in(hall());
   DriveSimulation simulation = simulation_in(hall(), {1.0, 1.0, 0.0});
@@ -256,7 +258,7 @@ TEST(GoalDriver, DoesNotDriveIntoWhatItsLaserIsTooNearToSee) {
               std::fill(scan.ranges_m.begin() + 300, scan.ranges_m.begin() + 420, 0.0F);
             }),
             0.3);
-  // Single ones say nothing.
+  // Single invalid beams mean nothing.
   EXPECT_GT(driven_after([](LaserScan& scan) {
               for (std::size_t i = 0; i < scan.ranges_m.size(); i += 7) scan.ranges_m[i] = 0.0F;
             }),
@@ -332,7 +334,7 @@ RC_GTEST_PROP(GoalDriverProperties, WaysEndAtTheGoalAndKeepClear, ()) {
     for (int k = 0; k <= 50; ++k) {
       const Eigen::Vector2d p = way[i - 1] + (way[i] - way[i - 1]) * (k / 50.0);
       if ((p - position_of(start)).norm() < 2.0 * start_room) continue;
-      // The hall's own geometry, not the grid's: the walls and the block.
+      // Distances by the hall's true geometry, not the grid: the walls and the block.
       const Eigen::Vector2d to_block =
           ((p - Eigen::Vector2d(5.0, 3.0)).cwiseAbs() - Eigen::Vector2d(0.5, 0.5)).cwiseMax(0.0);
       RC_ASSERT(std::min({p.x(), p.y(), 10.0 - p.x(), 6.0 - p.y()}) > 0.41 - 0.075);

@@ -37,7 +37,7 @@ Mapped map_room(std::uint64_t seed, int threads = 1, const Drive& drive = loop()
 TEST(GridMapper, TheMapIsThatOfTheRoom) {
   for (const std::uint64_t seed : {1U, 2U}) {
     Mapped mapped = map_room(seed);
-    // Wheels alone are far off by the end.
+    // The wheels alone are far off by the end.
     EXPECT_GT(distance(compose(loop().start, mapped.odometry), mapped.truth), 0.03) << seed;
     EXPECT_LT(mapped.worst_m, 0.05) << seed;
     const OccupancyGrid truth =
@@ -54,9 +54,9 @@ TEST(GridMapper, TheMapIsThatOfTheRoom) {
   }
 }
 
-// Looking along x it sees the wall of 6 m across, one end each 6 cm, and 5 m of both walls beside
-// it: σ²/n of the ends that tell x and of those that tell y, each of them known to 2 cm. Boxes hide
-// some.
+// Looking along x, the laser sees the 6 m wide wall, one endpoint every 6 cm, and 5 m of each side
+// wall: the variances are σ²/n for the n endpoints that constrain x and for those that constrain y,
+// each known to 2 cm. Boxes hide some.
 TEST(GridMapper, TellsByHowMuchTheMapMayBeOff) {
   MapperSettings settings;
   GridMapper mapper(settings, LaserParameters{}.X_RL, loop().start, 1);
@@ -65,7 +65,7 @@ TEST(GridMapper, TellsByHowMuchTheMapMayBeOff) {
         [&](const LaserScan& scan, const PlanarPose& odometry, const PlanarPose&) {
           mapper.update(scan, odometry);
         });
-  // The information of each by itself, as y goes together with the yaw.
+  // The information of each on its own, as y is correlated with the yaw.
   const Eigen::Matrix3d information = mapper.start_covariance().inverse();
   const double of_x = 6.0 / settings.point_spacing_m / (0.02 * 0.02);
   const double of_y = 10.0 / settings.point_spacing_m / (0.02 * 0.02);
@@ -91,9 +91,9 @@ TEST(GridMapper, PassesOverScansThatSayNothing) {
   scan.most_range_m = 10.0;
   EXPECT_FALSE(mapper.update(scan, {}));  // no beam at all
   scan.ranges_m.assign(100, 0.0F);
-  EXPECT_FALSE(mapper.update(scan, {}));  // none with a meaning
+  EXPECT_FALSE(mapper.update(scan, {}));  // no valid beam
   scan.ranges_m.assign(100, 11.0F);
-  EXPECT_FALSE(mapper.update(scan, {}));  // none that met anything
+  EXPECT_FALSE(mapper.update(scan, {}));  // no beam with a hit
   EXPECT_EQ(mapper.updates(), 0U);
   EXPECT_EQ(mapper.pose_at({}).x, 1.0);
   mapper.polish();

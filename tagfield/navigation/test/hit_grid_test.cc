@@ -29,7 +29,7 @@ TEST(HitGrid, ABeamFreesItsWayAndHitsItsEnd) {
     EXPECT_EQ(grid.at(x, 0).passed, 2U) << x;
     EXPECT_FALSE(grid.at(x, 0).is_occupied()) << x;
   }
-  // Nothing is said of what is just before the end, and beyond it.
+  // Cells just before the endpoint and beyond it stay unknown.
   EXPECT_FALSE(grid.at(9, 0).is_known());
   EXPECT_FALSE(grid.at(11, 0).is_known());
   EXPECT_FALSE(grid.at(5, 1).is_known());
@@ -45,7 +45,7 @@ TEST(HitGrid, TheMeanOfTheEndsIsFinerThanTheCell) {
 }
 
 TEST(HitGrid, ScansAreCountedNotBeams) {
-  // A wall along x, at a slant: of each scan one beam ends in a cell and many pass it.
+  // A wall along x at grazing incidence: in each scan, one beam ends in a cell and many pass it.
   HitGrid grid(0.1);
   ScanPoints scan{{0.0, 0.5}, {}, {}};
   for (int i = 0; i < 40; ++i) scan.ends_R.emplace_back(2.0 + 0.06 * i, 0.02);
@@ -78,7 +78,8 @@ TEST(HitGrid, GrowsInAllDirectionsAndTurnsScans) {
   EXPECT_TRUE(grid.at(0, -140).is_occupied());
 }
 
-// The last to change what all had changes it in place, after the others have read it to copy it.
+// The last grid to change a shared patch changes it in place, after the others have read it to copy
+// it.
 TEST(HitGrid, CopiesAreChangedByThreadsAtOnce) {
   std::vector<HitGrid> grids(1, HitGrid(0.1));
   grids[0].insert(beam_to(1.04), {0.0, 0.05, 0.0});

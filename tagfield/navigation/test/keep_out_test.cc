@@ -25,7 +25,7 @@ TEST(KeepOut, MarksALowShelfThatTheLaserPassesAbove) {
   EXPECT_EQ(marked.at(81, 51), 100);
   EXPECT_EQ(marked.at(78, 60), 0);
   EXPECT_EQ(marked.at(100, 72), 0);
-  // 40 by 20 cells, and those that its outline touches.
+  // 40 by 20 cells, plus those that its outline touches.
   EXPECT_GE(occupied(marked) - occupied(map), 800);
   EXPECT_LE(occupied(marked) - occupied(map), 42 * 22);
 }

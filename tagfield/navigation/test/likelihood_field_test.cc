@@ -26,7 +26,8 @@ OccupancyGrid random_map(std::uint32_t seed) {
   return map;
 }
 
-/// Thrun's formula on the end's cell, by looking at all cells; at the map's border as promised.
+/// Thrun's formula for the endpoint's cell, by checking all cells; at the map's border as
+/// documented.
 double brute_force(const OccupancyGrid& map, const Eigen::Vector2d& end_M, double sigma) {
   double least = 16.0 * sigma * sigma;
   Eigen::Vector2i cell = map.cell_of(end_M);
@@ -53,7 +54,7 @@ RC_GTEST_PROP(LikelihoodField, IsThatOfTheNearestOccupiedCell, (std::uint32_t se
   double expected = 0.0;
   for (const Eigen::Vector2f& end : ends) {
     const Eigen::Vector2d p = transformed(pose, end.cast<double>());
-    // On an edge between cells rounding may choose either.
+    // On an edge between cells, rounding may choose either.
     const Eigen::Vector2d in_cells = (p - map.origin) / map.resolution_m;
     const Eigen::Vector2d to_edge = (in_cells.array() - in_cells.array().round()).abs().matrix();
     RC_PRE(to_edge.minCoeff() > 1e-4);

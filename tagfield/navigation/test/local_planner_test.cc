@@ -36,7 +36,7 @@ struct Place {
     return decide(pose, present, wanted, around, last, settings);
   }
 
-  /// Drives for so long, deciding every 50 ms; the least gaps to points and people.
+  /// Drives for `seconds`, deciding every 50 ms; records the least gaps to points and people.
   void drive(const std::function<BodyVelocity(const PlanarPose&)>& wanted, double seconds) {
     for (int i = 0; i < std::lround(20.0 * seconds); ++i) {
       last = decide_on(wanted(pose));
@@ -76,7 +76,7 @@ TEST(LocalPlanner, AcceleratesAsTheDriveCan) {
 TEST(LocalPlanner, StopsBeforeAWall) {
   Place place;
   for (int i = -40; i <= 40; ++i) place.points.emplace_back(11.0, 10.0 + 0.05 * i);
-  // Straight on whatever happens.
+  // Wants to go straight on, whatever happens.
   place.drive([](const PlanarPose& pose) { return BodyVelocity{0.3, -2.0 * pose.yaw}; }, 10.0);
   EXPECT_GT(place.least_clear, 0.36);
   EXPECT_LT(place.least_clear, 0.6);

@@ -27,7 +27,7 @@ PoseEstimate roughly(const PlanarPose& pose) {
   return {pose, Eigen::Vector3d(0.0025, 0.0025, 0.0025).asDiagonal()};
 }
 
-/// Errors of the belief at all scans after the first metre.
+/// Errors of the estimate at all scans after the first metre.
 std::vector<double> errors_on_loop(MonteCarloLocalizer& localizer, std::uint64_t seed) {
   std::vector<double> errors;
   int scans = 0;
@@ -53,8 +53,8 @@ TEST(MonteCarloLocalizer, FollowsFromAKnownStart) {
   EXPECT_GT(known.fit(), 0.9);
 }
 
-// Walls beside the middles of their cells shift the match by as much. Particles go by the middles,
-// and their spread is the match's prior, which takes back a part.
+// Walls off the centres of their cells shift the match by as much. Particles use the cell centres,
+// and their spread is the prior of the match, which takes back part of the shift.
 TEST(MonteCarloLocalizer, WallsAreWhereTheMappingFoundThemInTheirCells) {
   const OccupancyGrid map = map_of_room();
   const Eigen::Vector2d shift(0.012, -0.008);
@@ -99,7 +99,7 @@ TEST(MonteCarloLocalizer, FindsItselfWithoutAStart) {
 TEST(MonteCarloLocalizer, NoticesThatItWasCarriedAway) {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     MonteCarloLocalizer kidnapped = localizer(seed);
-    // Believed to be elsewhere, and turned round.
+    // Believed to be elsewhere and turned around.
     kidnapped.start_at(roughly({1.0, 1.0, 2.5}));
     const std::vector<double> errors = errors_on_loop(kidnapped, 30 + seed);
     EXPECT_EQ(kidnapped.state(), Localization::kTracking) << seed;

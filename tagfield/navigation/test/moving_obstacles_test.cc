@@ -19,7 +19,7 @@ const BoxWorld& watched_hall() {
   return world;
 }
 
-/// Drives the tracker by scans from a robot that moves so, among obstacles that do.
+/// Feeds the tracker scans from a moving robot among moving obstacles.
 struct Watch {
   ObstacleTracker tracker;
   std::function<PlanarPose(double)> robot = [](double) { return PlanarPose{}; };
@@ -77,7 +77,7 @@ TEST(ObstacleTracker, FollowsFromARobotThatDrivesAndTurns) {
   EXPECT_LT((watch.moving()[0].velocity_M - Eigen::Vector2d(0.0, -1.0)).norm(), 0.15);
 }
 
-/// Abeam, half of somebody is beyond the edge of the view all the time.
+/// Abeam, with half of the person always beyond the edge of the field of view.
 TEST(ObstacleTracker, FollowsWhoIsHalfInView) {
   for (const double radius : {0.2, 0.25, 0.3}) {
     for (const double side : {-1.0, 1.0}) {
@@ -92,7 +92,7 @@ TEST(ObstacleTracker, FollowsWhoIsHalfInView) {
   }
 }
 
-/// A flat side of which the edge of the view or somebody's corner shows more and more.
+/// A flat side gradually revealed at the edge of the field of view or from behind a corner.
 TEST(ObstacleTracker, AFlatSideThatComesIntoViewDoesNotMove) {
   for (const double size : {0.4, 0.7}) {
     Watch watch;

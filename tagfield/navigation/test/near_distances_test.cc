@@ -18,7 +18,7 @@ TEST(NearDistances, OfOneSource) {
   EXPECT_EQ(distances[3 * 11 + 5], 0.0F);
   EXPECT_EQ(distances[3 * 11 + 6], 1.0F);
   EXPECT_EQ(distances[5 * 11 + 6], std::sqrt(5.0F));
-  EXPECT_EQ(distances[0], 4.0F);  // √34 away: no farther than asked for.
+  EXPECT_EQ(distances[0], 4.0F);  // √34 away: capped at the requested maximum.
 }
 
 TEST(NearDistances, OfOneSourceToTheMostCellsThatThereMayBe) {

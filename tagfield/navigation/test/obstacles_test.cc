@@ -22,7 +22,7 @@ const BoxWorld& wide_hall() {
   return world;
 }
 
-/// An aisle 3 m wide between two blocks, and a way around.
+/// An aisle 3 m wide between two blocks, and a detour around them.
 const BoxWorld& aisle() {
   static const BoxWorld world = [] {
     auto boxes = walls({0.0, 0.0}, {12.0, 10.0});
@@ -33,8 +33,8 @@ const BoxWorld& aisle() {
   return world;
 }
 
-/// Somebody who walks straight through `place` at time `at_s`, 7 m to and 7 m from there, and heeds
-/// nobody.
+/// A person who walks straight through `place` at time `at_s`, from 7 m before it to 7 m past it,
+/// and yields to nobody.
 std::function<Obstacles(Time)> walker(const Eigen::Vector2d& place, double heading, double speed,
                                       double at_s, double radius) {
   const Eigen::Vector2d direction(std::cos(heading), std::sin(heading));
@@ -55,7 +55,7 @@ class Crossings : public ::testing::TestWithParam<Crossing> {};
 
 TEST_P(Crossings, NobodyIsTouched) {
   for (const double phase : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
-    // The robot would be at the crossing 2.5 m on after about 8.7 s.
+    // The robot would reach the crossing, 2.5 m ahead, after about 8.7 s.
     GoalDriver driver({}, kLaser);
     driver.set_map(wide_hall().map);
     DriveSimulation simulation = simulation_in(wide_hall(), {0.0, 0.0, 0.0});

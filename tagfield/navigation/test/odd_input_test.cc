@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What mapper, localizer and driver make of scans and poses that nobody should send them.
+// How mapper, localizer and driver handle scans and poses that nobody should send them.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ struct Odd {
   LaserScan scan;
 };
 
-/// All of these are passed over.
+/// All of these are ignored.
 std::vector<Odd> scans_without_meaning() {
   const LaserScan good = scan_from({}, 0.0);
   std::vector<Odd> odd;
@@ -57,7 +57,7 @@ std::vector<Odd> scans_without_meaning() {
   return odd;
 }
 
-/// Some beams NaN, infinite or negative; the rest is as good as ever.
+/// Some beams are NaN, infinite or negative; the rest are valid.
 LaserScan scan_with_holes(const PlanarPose& pose, double seconds) {
   LaserScan scan = scan_from(pose, seconds);
   for (std::size_t i = 0; i < scan.ranges_m.size(); i += 10) scan.ranges_m[i] = kNotANumber;
@@ -65,7 +65,7 @@ LaserScan scan_with_holes(const PlanarPose& pose, double seconds) {
   return scan;
 }
 
-/// One beam of each three, as from another laser.
+/// Every third beam only, as from another laser.
 LaserScan scan_with_fewer_beams(const PlanarPose& pose, double seconds) {
   LaserScan scan = scan_from(pose, seconds);
   std::vector<float> kept;
@@ -93,7 +93,7 @@ TEST(GridMapper, GoesOnAfterOddScans) {
   GridMapper mapper({}, LaserParameters{}.X_RL, {}, 1);
   PlanarPose pose;
   for (int i = 0; i < 20; ++i, pose.x += 0.1) {
-    // Stamps that go back don't matter: the order of calls does.
+    // Timestamps that go back don't matter: the order of calls does.
     const double stamp = -0.5 * i;
     mapper.update(i % 3 == 0   ? scan_with_holes(pose, stamp)
                   : i % 3 == 1 ? scan_with_fewer_beams(pose, stamp)
@@ -120,7 +120,7 @@ TEST(MonteCarloLocalizer, PassesOverWhatHasNoMeaning) {
        {PlanarPose{kNever, 0.0, 0.0}, {0.0, kFar, 0.0}, {0.0, 0.0, kNever}}) {
     EXPECT_FALSE(localizer.update(scan_from({}, 0.0), odometry));
   }
-  // Nothing of that has stuck.
+  // None of that has left a trace.
   PlanarPose pose;
   for (int i = 0; i < 8; ++i, pose.x += 0.15) {
     EXPECT_TRUE(localizer.update(scan_from(pose, 0.1 * i), pose));
@@ -142,7 +142,7 @@ TEST(MonteCarloLocalizer, TakesScansWithHolesOtherBeamsAndOldStamps) {
   EXPECT_LT(distance(localizer.estimate_at(pose).pose_M, pose), 0.03);
 }
 
-/// A second of driving towards a goal ahead, with what `scan_at` gives for scans.
+/// Drives towards a goal ahead for a second, with the scans from `scan_at`.
 BodyVelocity driven(GoalDriver& driver, PlanarPose& pose, double from_s,
                     const std::function<LaserScan(const PlanarPose&, double)>& scan_at) {
   BodyVelocity velocity;
@@ -164,7 +164,7 @@ GoalDriver driver_to(const PlanarPose& goal, double now_s = 0.0) {
 
 TEST(GoalDriver, StandsWhereScansHaveNoMeaning) {
   for (const Odd& odd : scans_without_meaning()) {
-    // That nothing is within reach is a meaning, to a driver.
+    // To a driver, that nothing is within range is valid information.
     if (odd.name == "no returns" || odd.name == "infinite") continue;
     GoalDriver driver = driver_to({2.0, 0.0, 0.0});
     PlanarPose pose;
@@ -175,7 +175,7 @@ TEST(GoalDriver, StandsWhereScansHaveNoMeaning) {
     });
     EXPECT_EQ(velocity.forward, 0.0) << odd.name;
     EXPECT_EQ(pose.x, 0.0) << odd.name;
-    // And drives on once they have one.
+    // It drives on once scans are valid.
     EXPECT_GT(driven(driver, pose, 1.0, scan_from).forward, 0.2) << odd.name;
   }
 }
@@ -193,7 +193,7 @@ TEST(GoalDriver, GoesOnWhenTimeGoesBack) {
   EXPECT_GT(driven(driver, pose, 1000.0, scan_from).forward, 0.2);
   EXPECT_GT(driven(driver, pose, 3.0, scan_from).forward, 0.0);
   EXPECT_EQ(driver.state(), DriveState::kDriving);
-  // Scans that are older than the time are none.
+  // Outdated scans count as none.
   const auto old = [](const PlanarPose& at, double now) { return scan_from(at, now - 2.0); };
   EXPECT_EQ(driven(driver, pose, 4.0, old).forward, 0.0);
 }

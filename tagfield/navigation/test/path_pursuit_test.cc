@@ -14,7 +14,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-/// Drives at 20 Hz by the commands alone; the end, and how far from the way it went.
+/// Drives at 20 Hz by the commands alone. The final pose, and the greatest distance from the path.
 struct Drive {
   PlanarPose end;
   double most_off_m = 0.0;
@@ -55,7 +55,7 @@ TEST(PathPursuit, TurnsOnTheSpotWhereTheWayLiesBehind) {
   EXPECT_EQ(wanted.forward, 0.0);
   EXPECT_GT(wanted.turn, 0.5);
   EXPECT_GT(pursuit.to_turn_rad({}), 3.0);
-  // Once begun, until it looks along it.
+  // Once begun, it turns until it faces along the path.
   EXPECT_EQ(pursuit.wanted({0.0, 0.0, kPi - 0.3}).forward, 0.0);
   EXPECT_GT(pursuit.wanted({0.0, 0.0, kPi - 0.1}).forward, 0.0);
   EXPECT_EQ(pursuit.to_turn_rad({0.0, 0.0, kPi - 0.3}), 0.0);

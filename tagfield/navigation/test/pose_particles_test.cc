@@ -21,7 +21,7 @@ TEST(PoseParticles, TheSampleSizeIsFoxs) {
   for (const std::size_t bins : {3U, 10U, 100U, 1000U, 20000U}) {
     const boost::math::chi_squared chi2(static_cast<double>(bins - 1));
     const double exact = boost::math::quantile(chi2, 0.99) / (2.0 * 0.05);
-    // Wilson and Hilferty's approximation is good to a percent even for few bins.
+    // The Wilson-Hilferty approximation is good to one percent even for few bins.
     EXPECT_NEAR(static_cast<double>(kld_sample_size(bins)), exact, 0.5 + 0.01 * exact) << bins;
   }
 }
@@ -39,7 +39,7 @@ void expect_moments(const PlanarPose& step, const Eigen::Matrix3d& covariance) {
     mean += d / kDraws;
     squares += d * d.transpose() / kDraws;
   }
-  // Five standard errors: of a mean σ/√n, of a product of two normals at most √2 σᵢσⱼ/√n.
+  // Five standard errors: σ/√n for a mean, at most √2 σᵢσⱼ/√n for a product of two normals.
   const Eigen::Vector3d sigma = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const double error = 5.0 / std::sqrt(kDraws);
   for (int i = 0; i < 3; ++i) {
@@ -55,13 +55,13 @@ TEST(PoseParticles, StepsHaveTheirMeanAndCovariance) {
   Eigen::Matrix3d covariance;
   covariance << 0.04, 0.01, -0.02, 0.01, 0.09, 0.03, -0.02, 0.03, 0.05;
   expect_moments({0.3, -0.1, 0.2}, covariance);
-  // Of rank one and none, as of wheels that turn on the spot or stand.
+  // Of rank one and zero, as for wheels that turn on the spot or stand.
   const Eigen::Vector3d along(0.1, -0.2, 0.3);
   expect_moments({0.0, 0.0, 0.5}, along * along.transpose());
   expect_moments({0.1, 0.0, 0.0}, Eigen::Matrix3d::Zero());
 }
 
-/// One free cell at each corner of a map else occupied.
+/// A map with one free cell at each corner, occupied otherwise.
 OccupancyGrid four_free_cells() {
   OccupancyGrid map;
   map.resolution_m = 0.1;
@@ -90,7 +90,7 @@ TEST(PoseParticles, SpreadCoversAllFreeCellsAndHeadings) {
   }
   const double error = 5.0 * std::sqrt(kCount * 0.25 * 0.75);
   for (const int count : headings) EXPECT_NEAR(count, kCount / 4.0, error);
-  // The first and the last cell have half a cell's share less by the rounding to whole numbers.
+  // Rounding to integers costs the first and the last cell half a cell's share.
   for (const int count : quarters) EXPECT_GT(count, kCount / 8);
 }
 
@@ -141,7 +141,7 @@ TEST(PoseParticles, WeightsGrowByThePowerOfTheLikelihood) {
   const std::vector<Eigen::Vector2f> ends = {{1.0F, 0.0F}, {1.0F, 0.01F}};
   std::vector<PoseParticle> particles = {{{-0.95, 4.05, 0.0}, 0.0}, {{-0.75, 4.05, 0.0}, 1.0}};
   weigh(particles, field, ends, 0.25);
-  // The second's ends are two cells, which is two σ, off the wall.
+  // The second particle's endpoints are two cells, or two σ, off the wall.
   const double on = std::log(0.9 + 0.1 / 3.0);
   const double off = std::log(0.9 * std::exp(-2.0) + 0.1 / 3.0);
   const double second = 1.0 + 0.5 * (off - on);

@@ -17,9 +17,9 @@ TEST(Recovery, LooksAroundAndBacksUpByTurns) {
   EXPECT_FALSE(recovery.wanted({}, after(0.0), limits));
   recovery.begin({}, after(0.0));
   EXPECT_TRUE(recovery.is_on());
-  // Half a turn after 0.75 rad/s, over the seam of the yaw.
+  // Half a turn at 0.75 rad/s, across the wrap of the yaw.
   double yaw = 3.0;
-  recovery.begin({}, after(0.0));  // Backing is the second.
+  recovery.begin({}, after(0.0));  // Backing up is the second try.
   const auto back = recovery.wanted({}, after(1.0), limits);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->forward, -0.15);

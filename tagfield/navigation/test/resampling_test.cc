@@ -36,7 +36,8 @@ TEST(Resampling, UniformDrawsFillTheirRange) {
     sum += draw;
     squares += draw * draw;
   }
-  // Mean 1, variance 4²/12, within five standard errors of the mean and some more of the variance.
+  // Mean 1, variance 4²/12: within five standard errors for the mean and slightly more for the
+  // variance.
   const double mean = sum / kDraws;
   EXPECT_NEAR(mean, 1.0, 5.0 * std::sqrt(16.0 / 12.0 / kDraws));
   EXPECT_NEAR(squares / kDraws - mean * mean, 16.0 / 12.0, 0.02);
@@ -66,7 +67,7 @@ TEST(Resampling, SystematicDrawsAreUnbiased) {
   for (int i = 0; i < kTimes; ++i) {
     for (const std::size_t chosen : systematic_resampling(log_weights, generator)) ++times[chosen];
   }
-  // A draw's count is one of two neighbours, so its variance is at most 1/4.
+  // A draw's count is one of two adjacent integers, so its variance is at most 1/4.
   const double most = 5.0 * std::sqrt(0.25 * kTimes);
   EXPECT_NEAR(times[0], 3.0 * 0.05 * kTimes, most);
   EXPECT_NEAR(times[1], 3.0 * 0.25 * kTimes, most);
@@ -95,7 +96,7 @@ TEST(Resampling, DrawsFollowTheWeights) {
     const std::vector<double> log_weights = random_log_weights(count, generator);
     const std::vector<double> shares = shares_of(log_weights);
     constexpr int kDraws = 200000;
-    // Kolmogorov and Smirnov's limit at 99.9 %, beside what the table of starts may shift.
+    // Kolmogorov-Smirnov limit at 99.9 %, plus the shift that the table of starts may cause.
     EXPECT_LT(kolmogorov_distance(shares, WeightedDraw(log_weights), kDraws, generator),
               1.95 / std::sqrt(kDraws) + *std::max_element(shares.begin(), shares.end()))
         << count;

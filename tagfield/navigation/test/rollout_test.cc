@@ -13,7 +13,7 @@ namespace {
 
 using testing::room_of;
 
-/// The middle of an empty room of 20 m by 20 m.
+/// The centre of an empty room of 20 m by 20 m.
 struct Open {
   OccupancyGrid map = room_of(20.0, 20.0);
   DistanceWindow window{map, {}, {10.0, 10.0}, 4.0, 1.0};
@@ -40,7 +40,7 @@ TEST(Rollout, TargetsFollowEachOther) {
 
 TEST(Rollout, GoesAsFarAsTheDriveCan) {
   const Open open;
-  // Up to 0.3 m/s at 1 m/s² within 0.3 s, held to 1 s, and down again: 0.3 m in all.
+  // Up to 0.3 m/s at 1 m/s² in 0.3 s, held until 1 s, and down again: 0.3 m in all.
   const Manoeuvre ahead{{0.3, 0.0}, 1.0, {}, 0.0};
   EXPECT_NEAR(open.rollouts().outcome(ahead).moved_m, 0.3, 1e-9);
   EXPECT_NEAR(open.rollouts().after(ahead, 1.0).x, 10.0 + 0.255, 1e-9);
@@ -63,11 +63,11 @@ TEST(Rollout, MeasuresToWhatStands) {
 
 TEST(Rollout, MeasuresToThoseWhoMoveAlsoAtRest) {
   Open open;
-  // Passes 1 m ahead after 4 s, when the robot would long stand.
+  // Passes 1 m ahead after 4 s, when the robot would long be at rest.
   open.around.moving = {{{11.0, 6.0}, {0.0, 1.0}, 0.3}};
   EXPECT_NEAR(open.rollouts().outcome({}).gap_m, 1.0 - 0.36 - 0.3 - 0.25, 1e-6);
   EXPECT_LT(open.rollouts().outcome({{0.3, 0.0}, 2.0, {}, 0.0}).gap_m, 0.0);
-  // Gone by: what comes after the horizon does not count, nor what was before.
+  // Already past: only what happens between now and the horizon counts.
   open.around.moving = {{{11.0, 10.0 + 1.5}, {0.0, 1.0}, 0.3}};
   EXPECT_GT(open.rollouts().outcome({}).gap_m, 1.0);
 }

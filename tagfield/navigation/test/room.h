@@ -19,8 +19,8 @@ inline Collision box_at(double x, double y, double size_x, double size_y) {
   return {"box", Box{{size_x, size_y, 2.0}}, from_translation({x, y, 1.0})};
 }
 
-/// 8.05 m by 6.05 m about the origin, so that its walls' surfaces are in the middle of a map's
-/// cells of 5 cm, with boxes in its corners that tell them apart.
+/// 8.05 m by 6.05 m around the origin, so that the walls' surfaces are at the centres of a map's 5
+/// cm cells. Boxes in the corners tell them apart.
 inline Scene room() {
   Scene scene;
   scene.collisions = {box_at(0.0, 3.125, 8.4, 0.2),    box_at(0.0, -3.125, 8.4, 0.2),
@@ -30,13 +30,13 @@ inline Scene room() {
   return scene;
 }
 
-/// What a robot senses on a drive of velocities, each for so many seconds.
+/// A drive by velocities, each held for some seconds.
 struct Drive {
   PlanarPose start;
   std::vector<std::pair<BodyVelocity, double>> legs;
 };
 
-/// Round the middle of the room, twice.
+/// Twice around the centre of the room.
 inline Drive loop() {
   return {
       {-1.0, -1.0, 0.0},

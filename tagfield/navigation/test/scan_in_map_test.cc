@@ -26,7 +26,7 @@ LaserScan scan_of(std::vector<float> ranges, double first = -kPi / 2.0, double l
 }
 
 TEST(ScanInMap, PlacesReturns) {
-  // Right, ahead, left of a robot at (1, 2) that looks along y.
+  // Right, ahead, left of a robot at (1, 2) facing along y.
   const ScanInMap seen =
       scan_in_map(scan_of({2.0F, 3.0F, 11.0F}), kLaser, {1.0, 2.0, kPi / 2.0}, {});
   ASSERT_EQ(seen.returns.size(), 2U);
@@ -44,7 +44,7 @@ TEST(ScanInMap, TurnsWithALaserThatIsMountedTurned) {
 }
 
 TEST(ScanInMap, StraightensASweep) {
-  // A robot that turns by 1 rad/s while the last beam is taken 0.1 s after the first.
+  // The robot turns at 1 rad/s, and the last beam is taken 0.1 s after the first.
   LaserScan scan = scan_of({2.0F, 2.0F, 2.0F});
   scan.beam_interval = std::chrono::milliseconds(50);
   const ScanInMap seen = scan_in_map(scan, from_translation({0.0, 0.0, 0.3}), {}, {0.0, 1.0});
@@ -71,7 +71,7 @@ TEST(ScanInMap, ClearTowardsWorksRoundAFullTurn) {
 TEST(ScanInMap, NothingIsKnownOfWideRowsOfInvalidBeams) {
   std::vector<float> ranges(181, 5.0F);
   for (std::size_t i = 85; i < 96; ++i) ranges[i] = 0.0F;  // 11° ahead
-  ranges[20] = 0.0F;                                       // one beam: no news
+  ranges[20] = 0.0F;                                       // a single beam: ignored
   const ScanInMap seen = scan_in_map(scan_of(ranges), kLaser, {}, {});
   ASSERT_GE(seen.may_be_M.size(), 4U);
   for (const Eigen::Vector2d& point : seen.may_be_M) {

@@ -54,8 +54,8 @@ TEST(ScanMatcher, FindsThePoseFarBelowTheCell) {
   }
 }
 
-// A wall a deviation beside a border of cells: five of six ends are on its side of it, which a
-// limit on ends makes three of six.
+// A wall one standard deviation from a cell border: five of six endpoints are on its side, which a
+// limit on endpoints makes three of six.
 TEST(ScanMatcher, AWallNearABorderOfCellsIsWhereItsEndsAreInTheMean) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0.0, 0.01);
@@ -91,7 +91,7 @@ TEST(ScanMatcher, OutliersAreOutvoted) {
   const HitGrid map = map_of(corner_points());
   const PlanarPose truth{0.2, 0.1, 0.2};
   std::vector<Eigen::Vector2d> points = seen_from(truth, corner_points());
-  // A fifth of the points is on something that is not on the map.
+  // A fifth of the points are on an object that is not on the map.
   for (std::size_t i = 0; i < points.size(); i += 5) points[i] *= 0.6;
   const PlanarPose guess{0.23, 0.08, 0.21};
   const ScanMatch match = match_scan(map, points, guess, guess, kLoose, {});

@@ -6,7 +6,7 @@
 namespace tagfield {
 namespace {
 
-/// Seven beams ahead, 1° apart, from the origin at that time [s].
+/// Seven beams ahead, 1° apart, from the origin at time `seconds` [s].
 ScanInMap scan_at(double seconds, double range_m, double yaw = 0.0) {
   LaserScan scan;
   scan.stamp = time_from_seconds(seconds);
@@ -30,7 +30,7 @@ TEST(ScanMemory, KeepsWhatStandsOutOfSight) {
   for (int i = 0; i <= 30; ++i) see(memory, scan_at(0.1 * i, 3.0), false);
   EXPECT_GE(count(memory), 6U);
   EXPECT_EQ(memory.not_on_map().size(), count(memory));
-  // Seen for 3 s, so kept for 9 s. The robot looks elsewhere meanwhile, where nothing is.
+  // Seen for 3 s, so kept for 9 s. Meanwhile the robot looks elsewhere, where there is nothing.
   for (int i = 31; i <= 115; ++i) see(memory, scan_at(0.1 * i, 20.0, 2.0), false);
   EXPECT_GE(count(memory), 6U);
   for (int i = 116; i <= 130; ++i) see(memory, scan_at(0.1 * i, 20.0, 2.0), false);

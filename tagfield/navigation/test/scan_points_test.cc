@@ -19,7 +19,7 @@ LaserScan three_beams(float right, float ahead, float left) {
 }
 
 TEST(ScanPoints, BeamsBecomePointsOnTheRobot) {
-  // A laser 0.5 m ahead of the base that looks to the left.
+  // A laser 0.5 m ahead of the base, facing left.
   const RigidTransform X_RL = from_xyz_rpy({0.5, 0.1, 0.3}, {0.0, 0.0, kPi / 2.0});
   const ScanPoints points = scan_points(three_beams(1.0F, 2.0F, 3.0F), X_RL, 5.0);
   ASSERT_EQ(points.ends_R.size(), 3U);

@@ -11,10 +11,10 @@
 
 namespace tagfield::testing {
 
-/// Where a P3-AT has its laser, on the robot.
+/// Mounting pose of a P3-AT's laser.
 inline const RigidTransform kLaser = from_translation({0.15, 0.0, 0.31});
 
-/// A map from rows of text, the last row at y = 0: '#' occupied, '?' unknown, all else free.
+/// A map from rows of text, the last row at y = 0: '#' occupied, '?' unknown, everything else free.
 inline OccupancyGrid grid_of(const std::vector<std::string>& rows, double resolution_m = 0.05) {
   OccupancyGrid grid;
   grid.resolution_m = resolution_m;
@@ -30,7 +30,8 @@ inline OccupancyGrid grid_of(const std::vector<std::string>& rows, double resolu
   return grid;
 }
 
-/// A free map of `width_m` by `height_m` with walls one cell thick around it, its corner at zero.
+/// A free map of `width_m` by `height_m` surrounded by walls one cell thick, its corner at the
+/// origin.
 inline OccupancyGrid room_of(double width_m, double height_m, double resolution_m = 0.05) {
   OccupancyGrid grid;
   grid.resolution_m = resolution_m;
@@ -47,7 +48,7 @@ inline OccupancyGrid room_of(double width_m, double height_m, double resolution_
   return grid;
 }
 
-/// Makes cells in a rectangle [m] that value.
+/// Sets the cells in a rectangle [m] to `value`.
 inline void paint(OccupancyGrid& grid, const Eigen::Vector2d& low, const Eigen::Vector2d& high,
                   std::int8_t value) {
   for (int y = 0; y < grid.height; ++y) {
@@ -60,7 +61,7 @@ inline void paint(OccupancyGrid& grid, const Eigen::Vector2d& low, const Eigen::
   }
 }
 
-/// A world of upright boxes, ready to be driven in.
+/// A world of upright boxes to drive in.
 struct BoxWorld {
   Scene scene;
   RayScene rays;

@@ -16,7 +16,7 @@ using testing::BoxWorld;
 using testing::DriveSimulation;
 using testing::simulation_in;
 
-/// Where a disc that goes on by millimetres first touches a point.
+/// Distance at which a disc that advances millimetre by millimetre first touches a point.
 double way_by_steps(const std::vector<Eigen::Vector2d>& points, double angle, double half_width,
                     double most) {
   const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
@@ -41,17 +41,18 @@ TEST(OpenWay, IsWhereADiscMeetsTheFirstPoint) {
       points.emplace_back(1.5 * x, 1.5 * y);
     }
     const double angle = 0.3 * i;
-    EXPECT_NEAR(open_way(points, angle, 0.45, 3.0), way_by_steps(points, angle, 0.45, 3.0), 2e-3);
+    EXPECT_NEAR(free_distance(points, angle, 0.45, 3.0), way_by_steps(points, angle, 0.45, 3.0),
+                2e-3);
   }
 }
 
 TEST(OpenWay, EndsAtMost) {
-  EXPECT_EQ(open_way({}, 1.0, 0.4, 4.0), 4.0);
-  EXPECT_EQ(open_way({{-1.0, 0.0}, {1.0, 0.41}}, 0.0, 0.4, 4.0), 4.0);
-  EXPECT_NEAR(open_way({{2.0, 0.0}}, 0.0, 0.4, 4.0), 1.6, 1e-12);
-  EXPECT_NEAR(open_way({{2.0, 0.24}}, 0.0, 0.4, 4.0), 2.0 - 0.32, 1e-12);
+  EXPECT_EQ(free_distance({}, 1.0, 0.4, 4.0), 4.0);
+  EXPECT_EQ(free_distance({{-1.0, 0.0}, {1.0, 0.41}}, 0.0, 0.4, 4.0), 4.0);
+  EXPECT_NEAR(free_distance({{2.0, 0.0}}, 0.0, 0.4, 4.0), 1.6, 1e-12);
+  EXPECT_NEAR(free_distance({{2.0, 0.24}}, 0.0, 0.4, 4.0), 2.0 - 0.32, 1e-12);
   // Covered already: the robot stands beside it, and may leave.
-  EXPECT_EQ(open_way({{0.3, 0.0}}, 0.0, 0.4, 4.0), 4.0);
+  EXPECT_EQ(free_distance({{0.3, 0.0}}, 0.0, 0.4, 4.0), 4.0);
 }
 
 /// A room of 7 m by 5 m with two boxes.
@@ -65,7 +66,7 @@ const BoxWorld& room() {
   return world;
 }
 
-/// One step of a sixtieth of a second; what the wheels tell begins at zero and drifts.
+/// One step of a sixtieth of a second; the odometry starts at zero and drifts.
 void advance_by(Wander& wander, DriveSimulation& simulation, PlanarPose& odometry) {
   const double dt = 1.0 / DriveSimulation::kStepsPerSecond;
   if (simulation.step % 2 == 0) {
@@ -108,7 +109,7 @@ TEST_P(Wanders, AroundAndTouchNothing) {
   EXPECT_GT(turned_before_leaving, radians(330.0));
   EXPECT_GT(simulation.least_distance_m, 0.0);
   EXPECT_GT(simulation.driven_m, 5.0);
-  // It gets about instead of going to and fro.
+  // It gets around instead of going to and fro.
   double farthest = 0.0;
   for (const PlanarPose& pose : simulation.trail) {
     farthest = std::max(farthest, (position_of(pose) - position_of(GetParam())).norm());
@@ -131,7 +132,7 @@ TEST(Wander, DoesNotHeedWhatItStandsOn) {
   EXPECT_GT(simulation.driven_m, 1.0);
 }
 
-/// In a corner, nearer to its walls than a goal may be, and looking into it.
+/// In a corner, nearer to its walls than a goal may be, and facing into it.
 TEST(Wander, ComesOutOfACorner) {
   DriveSimulation simulation = simulation_from({0.39, 0.39, -2.36});
   Wander wander({}, simulation.laser.X_RL);
@@ -147,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(Room, Wanders,
                          ::testing::Values(PlanarPose{1.0, 1.0, 0.0}, PlanarPose{6.2, 1.0, 2.0},
                                            PlanarPose{6.3, 3.0, -1.0}, PlanarPose{2.4, 0.6, 1.57}));
 
-/// A low board across the room, which no laser sees: the robot stays on its side.
+/// A low board across the room that the laser does not see: the robot stays on its side.
 TEST(Wander, MindsWhatItIsToldOf) {
   DriveSimulation simulation = simulation_from({1.5, 1.2, 0.0});
   const PlanarPose start = simulation.pose;
@@ -168,7 +169,7 @@ TEST(Wander, MindsWhatItIsToldOf) {
   EXPECT_LT(rightmost, 2.8 - 0.36);
 }
 
-/// With eyes in the back of its head: nobody comes from where it does not look.
+/// With a 360° view: nobody approaches from a direction it does not see.
 TEST(Wander, LetsSomebodyPass) {
   DriveSimulation simulation = simulation_from({1.5, 2.5, 0.0});
   simulation.laser.beams = 360;

@@ -17,7 +17,7 @@ namespace {
 using testing::DriveSimulation;
 using testing::Edges;
 
-/// Heights at which the robot could touch something [m].
+/// Height range in which the robot could collide with something [m].
 constexpr double kLow = 0.02;
 constexpr double kHigh = 0.36;
 
@@ -29,7 +29,7 @@ struct Warehouse {
 
   explicit Warehouse(Scene given)
       : scene(std::move(given)), rays(scene), edges(scene, kLow, kHigh) {
-    // The racks' lowest boards are below the laser.
+    // The racks' lowest boards are below the scan plane.
     map = with_keep_out(true_map(scene, 0.31, {3.0, 0.0}, 0.05),
                         top_view(scene, kLow, kHigh, 0.001), {});
   }
@@ -44,7 +44,7 @@ const Warehouse& warehouse() {
   return result;
 }
 
-/// A place that can be reached from `pose`.
+/// A random goal that can be reached from `pose`.
 PlanarPose random_goal(RandomStream& stream, const PlanarPose& pose) {
   const OccupancyGrid& map = warehouse().map;
   for (;;) {
@@ -55,7 +55,7 @@ PlanarPose random_goal(RandomStream& stream, const PlanarPose& pose) {
   }
 }
 
-/// A believed pose that is 2 cm and 0.3° off, now here, now there.
+/// An estimated pose that is off by 2 cm and 0.3° in varying directions.
 std::function<PlanarPose(Time)> wandering(double phase) {
   return [phase](Time now) {
     const double t = to_seconds(now);
@@ -66,8 +66,8 @@ std::function<PlanarPose(Time)> wandering(double phase) {
 
 class Drives : public ::testing::TestWithParam<int> {};
 
-/// 100 goals in all, ten a case, each from where the last was; in every other case the robot's
-/// belief of its pose is off.
+/// 100 goals in all, ten per case, each starting from the last; in every other case the robot's
+/// pose estimate is off.
 TEST_P(Drives, ReachTheirGoalsAndTouchNothing) {
   RandomStream stream(7, Purpose::kOdometry, static_cast<std::uint64_t>(GetParam()));
   PlanarPose pose{3.0, 0.0, 0.0};
@@ -78,7 +78,7 @@ TEST_P(Drives, ReachTheirGoalsAndTouchNothing) {
     DriveSimulation simulation;
     simulation.world = &warehouse().rays;
     simulation.edges = &warehouse().edges;
-    simulation.laser.beams = 361;  // A beam each half degree will do, and takes half the time.
+    simulation.laser.beams = 361;  // A beam every half degree suffices and takes half the time.
     simulation.seed = static_cast<std::uint64_t>(10 * GetParam() + i);
     simulation.pose = pose;
     if (GetParam() % 2 == 1) simulation.belief_error = wandering(i);

@@ -9,13 +9,14 @@
 namespace tagfield {
 namespace {
 
-/// Nearer than that the paper's RSSI goes beyond all bounds [m].
+/// At shorter distances the paper's RSSI diverges [m].
 constexpr double kLeastDistance = 0.01;
 
 }  // namespace
 
-AntennaPlace::AntennaPlace(const Scenario& scenario, const AntennaSpec& antenna,
-                           const RadioWorld& world, const RigidTransform& X_WA, std::uint64_t seed)
+AntennaAtPose::AntennaAtPose(const Scenario& scenario, const AntennaSpec& antenna,
+                             const RadioWorld& world, const RigidTransform& X_WA,
+                             std::uint64_t seed)
     : antenna_(antenna), p_WA_(X_WA.translation) {
   const RadioModel* const model = physical(antenna.parameters);
   if (model == nullptr) return;
@@ -25,12 +26,12 @@ AntennaPlace::AntennaPlace(const Scenario& scenario, const AntennaSpec& antenna,
   view_.emplace(view_from(*model, world, X_WA, middle_hz, port.antenna_key, seed));
 }
 
-double AntennaPlace::distance(const Eigen::Vector3d& p_WT) const {
+double AntennaAtPose::distance(const Eigen::Vector3d& p_WT) const {
   return std::max((p_WT - p_WA_).norm(), kLeastDistance);
 }
 
-/// Margin: how much more RSSI there is than at the end of the range, by eq. (5).
-CoverageCell AntennaPlace::look_by_paper(double distance_m) const {
+/// The margin is the excess of RSSI over that at the limit of the range, by eq. (5).
+CoverageCell AntennaAtPose::look_by_paper(double distance_m) const {
   const AntennaParameters& parameters = antenna_.parameters;
   CoverageCell seen;
   seen.power_dbm = paper_rssi_dbm(paper(parameters).model, distance_m, 0.0);
@@ -40,19 +41,19 @@ CoverageCell AntennaPlace::look_by_paper(double distance_m) const {
   return seen;
 }
 
-CoverageCell AntennaPlace::look(const TagEnd& tag, const Orientations& orientations,
-                                std::vector<RadioPath>& paths) const {
+CoverageCell AntennaAtPose::look(const TagEnd& tag, const Orientations& orientations,
+                                 std::vector<RadioPath>& paths) const {
   if (!view_) return look_by_paper(distance(tag.X_WT.translation));
   const LocalLink link = local_link(*view_, tag, orientations, carriers_hz_, 0, paths);
   return {link.tag_dbm, link.reply_dbm, link.margin_db, link.probability, -1};
 }
 
-LinkStates AntennaPlace::states(const TagEnd& tag, std::vector<RadioPath>& paths) const {
+LinkStates AntennaAtPose::states(const TagEnd& tag, std::vector<RadioPath>& paths) const {
   if (!view_) return {};
   return LinkStates(fading_margins_db(*view_, tag, carriers_hz_, 0, paths));
 }
 
-double AntennaPlace::most_margin_db(const TagModel& tag, const Eigen::Vector3d& p_WT) const {
+double AntennaAtPose::most_margin_db(const TagModel& tag, const Eigen::Vector3d& p_WT) const {
   if (!view_) return 40.0 * std::log10(paper(antenna_.parameters).range_m / distance(p_WT));
   return tagfield::most_margin_db(view_->model, tag, distance(p_WT));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// An antenna in one place, asked for many tags.
+/// An antenna at one pose, evaluated for many tags.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,20 @@
 
 namespace tagfield {
 
-/// By the paper's model or a physical one. May be used by several threads at once.
-class AntennaPlace {
+/// Uses the paper's model or a physical one. May be used by several threads simultaneously.
+class AntennaAtPose {
  public:
   /// Keeps references to `antenna` and `world`.
-  AntennaPlace(const Scenario& scenario, const AntennaSpec& antenna, const RadioWorld& world,
-               const RigidTransform& X_WA, std::uint64_t seed);
+  AntennaAtPose(const Scenario& scenario, const AntennaSpec& antenna, const RadioWorld& world,
+                const RigidTransform& X_WA, std::uint64_t seed);
 
-  /// Powers, margin and probability of a tag, with its place and key, in these orientations.
+  /// Powers, margin and probability of a tag, at its position and with its key, in these
+  /// orientations.
   [[nodiscard]] CoverageCell look(const TagEnd& tag, const Orientations& orientations,
                                   std::vector<RadioPath>& paths) const;
-  /// The link's fading states; none of one of the paper's antennas.
+  /// The link's fading states; none for an antenna of the paper's model.
   [[nodiscard]] LinkStates states(const TagEnd& tag, std::vector<RadioPath>& paths) const;
-  /// A margin that no tag at `p_WT` has more of [dB].
+  /// Upper bound on the margin of any tag at `p_WT` [dB].
   [[nodiscard]] double most_margin_db(const TagModel& tag, const Eigen::Vector3d& p_WT) const;
 
  private:
@@ -36,10 +37,11 @@ class AntennaPlace {
   const AntennaSpec& antenna_;
   Eigen::Vector3d p_WA_;
   std::vector<double> carriers_hz_;
-  std::optional<RadioView> view_;  ///< Of a physical antenna.
+  std::optional<RadioView> view_;  ///< Set for a physical antenna.
 };
 
-/// Takes over what is more: the place with the greatest margin, the greatest probability.
+/// Updates `cell` with the better values: the pose with the greatest margin, and the greatest
+/// probability.
 void merge(const CoverageCell& seen, int antenna, CoverageCell& cell);
 
 }  // namespace tagfield

@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-/// The tags, the one asked about as number 0.
+/// The tags, with that of the question as number 0.
 TagPopulation population_of(const LinkQuestion& question,
                             const std::vector<std::shared_ptr<const TagModel>>& kinds) {
   constexpr double kCell_m = 1.0;
@@ -39,7 +39,7 @@ double forward_db(const RadioView& view, const TagEnd& tag) {
   return to_db(std::norm(link_of(view, tag, paths).forward));
 }
 
-/// What the neighbour in `slot` would do to the field at the chip of the first, were it the only
+/// Effect of the neighbour in `slot` on the field at the chip of the first tag if it were the only
 /// one.
 double alone_db(const RadioView& view, const TagPopulation& tags, std::uint32_t slot) {
   const TagEnd alone{tags.model(0), tags.pose(0), tags.key(0)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What tags and readers beside a link do to it.
+/// Effects of other tags and readers on a link.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,16 @@
 
 namespace tagfield {
 
-/// The tags that couple with the one asked about, as the air takes them.
+/// The tags that couple with that of the question, as the link computation needs them.
 struct Surrounded {
   TagSurroundings around;
-  std::vector<NearTag> near;                           ///< By rising distance.
-  std::vector<std::shared_ptr<const TagModel>> kinds;  ///< That `around` points to.
+  std::vector<NearTag> near;                           ///< Sorted by distance.
+  std::vector<std::shared_ptr<const TagModel>> kinds;  ///< Models that `around` points to.
 };
 Surrounded tags_around(const RadioView& view, const LinkQuestion& question);
 
-/// Fills in `link.interference`, where the view's antenna minds other readers; what that comes to.
+/// Fills in `link.interference` if the view's antenna models other readers. Returns their total
+/// effect.
 Disturbance add_interference(const Scenario& scenario, const LinkQuestion& question,
                              const RadioView& view, const TagEnd& tag, const RadioLink& of_link,
                              PhysicalLink& link);

@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// What a moving body must do to a way to be told [dB].
+/// Least effect of a moving body on a path to be reported [dB].
 constexpr double kNoticed_db = 0.05;
 
 void add(std::vector<BudgetLine>& lines, const std::string& what, double db) {
@@ -34,9 +34,9 @@ std::string blockers(const std::vector<SurfaceOnPath>& between) {
   return wall == between.end() ? "something" : fmt::format("{} ({})", wall->object, wall->material);
 }
 
-/// Of the direct way: what it is made of, as if nothing opaque stood in it.
+/// Adds the lines of the direct path, as if nothing opaque obstructed it.
 void add_direct(const RadioView& view, const TagEnd& tag, bool receiver, const RadioPath& direct,
-                OneWay& way) {
+                OneWayLink& way) {
   const RadioEnd antenna{view.model.antenna, receiver ? view.X_WR : view.X_WA};
   const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
   const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
@@ -61,7 +61,7 @@ void add_direct(const RadioView& view, const TagEnd& tag, bool receiver, const R
   add(way.lines, "tag gain towards the antenna", budget.tag_db);
 }
 
-std::string others_line(const OneWay& way, std::size_t count) {
+std::string others_line(const OneWayLink& way, std::size_t count) {
   if (way.blocked && count == 0) return blockers(way.between) + " blocks the only path";
   const std::string others = count == 1 ? "1 other path" : fmt::format("{} other paths", count);
   if (way.blocked) {
@@ -70,14 +70,14 @@ std::string others_line(const OneWay& way, std::size_t count) {
   return count == 0 ? "what remains of it" : fmt::format("{} with it", others);
 }
 
-std::size_t count_others(const OneWay& way) {
+std::size_t count_others(const OneWayLink& way) {
   const auto bounced = std::count_if(way.paths.begin(), way.paths.end(), [](const RadioPath& path) {
     return path.bounce_count > 0 && !path.blocked;
   });
   return static_cast<std::size_t>(bounced) + way.over_edges.size();
 }
 
-/// Of all that the paths meet, by name.
+/// All materials that the paths meet, sorted by name.
 std::vector<MaterialOnLink> materials_on(const std::vector<PathExplanation>& paths,
                                          const RadioWorld& world, double frequency_hz) {
   std::set<std::string> met;
@@ -96,7 +96,7 @@ std::vector<MaterialOnLink> materials_on(const std::vector<PathExplanation>& pat
   return all;
 }
 
-double paths_db(const RadioView& view, const TagEnd& tag, bool receiver, const OneWay& way) {
+double paths_db(const RadioView& view, const TagEnd& tag, bool receiver, const OneWayLink& way) {
   const RadioEnd antenna{view.model.antenna, receiver ? view.X_WR : view.X_WA};
   const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
   std::complex<double> sum = 0.0;
@@ -110,7 +110,7 @@ double paths_db(const RadioView& view, const TagEnd& tag, bool receiver, const O
   return to_db(std::norm(sum));
 }
 
-/// The tag alone, as the lines before "coupling" have it.
+/// The link of the tag alone, as in the lines before "coupling".
 RadioLink link_alone(const RadioView& view, const TagEnd& tag, const RadioLink& of_link) {
   if (tag.around == nullptr) return of_link;
   TagEnd alone = tag;
@@ -129,8 +129,8 @@ void add_coupling(const TagEnd& tag, std::complex<double> coupled, std::complex<
 
 }  // namespace
 
-OneWay one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool receiver) {
-  OneWay way;
+OneWayLink one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool receiver) {
+  OneWayLink way;
   way.paths = paths_of(view, tag, receiver);
   way.over_edges = diffracted_paths(view, tag, receiver);
   if (way.paths.empty()) {
@@ -142,7 +142,8 @@ OneWay one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool re
   const double singles_db = is_diffuse ? paths_db(view, tag, receiver, way) : gain_db;
   const double others_db = singles_db - sum_of(way.lines);
   const std::size_t count = count_others(way);
-  // Without others a difference is rounding, or where a pattern's null ends at "nothing".
+  // Without other paths, a difference is due to rounding, or to a null of the pattern clamped to
+  // "nothing".
   if (count > 0 || way.blocked || std::abs(others_db) > 1e-6) {
     add(way.lines, others_line(way, count), others_db);
   }
@@ -154,7 +155,7 @@ void add_budget(const RadioView& view, const TagEnd& tag, const RadioLink& of_li
                 PhysicalLink& link) {
   const RadioModel& model = view.model;
   const RadioLink alone = link_alone(view, tag, of_link);
-  OneWay there = one_way(view, tag, to_db(std::norm(alone.forward)), false);
+  OneWayLink there = one_way(view, tag, to_db(std::norm(alone.forward)), false);
   add(link.to_tag, "transmit power", model.transmit_power_dbm);
   add(link.to_tag, "cable", -model.cable_loss_db);
   link.to_tag.insert(link.to_tag.end(), there.lines.begin(), there.lines.end());
@@ -169,7 +170,7 @@ void add_budget(const RadioView& view, const TagEnd& tag, const RadioLink& of_li
   add(link.to_reader, "detuning of the tag", -tag.model.detuning_db);
   const double back_db = to_db(std::norm(of_link.backward));
   if (model.X_AR) {
-    OneWay back = one_way(view, tag, to_db(std::norm(alone.backward)), true);
+    OneWayLink back = one_way(view, tag, to_db(std::norm(alone.backward)), true);
     link.to_reader.insert(link.to_reader.end(), back.lines.begin(), back.lines.end());
     add_coupling(tag, of_link.backward, alone.backward, link.to_reader);
     link.between_return = std::move(back.between);

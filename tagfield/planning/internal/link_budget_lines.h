@@ -9,20 +9,20 @@
 
 namespace tagfield {
 
-/// One way, antennas' gains included.
-struct OneWay {
-  std::vector<BudgetLine> lines;       ///< Their sum is the way's gain.
-  std::vector<SurfaceOnPath> between;  ///< On the direct way.
+/// One direction of a link, including antenna gains.
+struct OneWayLink {
+  std::vector<BudgetLine> lines;       ///< Their sum is the one-way gain.
+  std::vector<SurfaceOnPath> between;  ///< On the direct path.
   std::vector<RadioPath> paths;        ///< Blocked ones too.
   std::vector<DiffractedPath> over_edges{};
-  bool blocked = false;  ///< The direct one is.
+  bool blocked = false;  ///< Whether the direct path is blocked.
 };
 
-/// From the view's antenna to `tag`, or from there to its receiving one; `gain_db` is the whole
-/// way's.
-OneWay one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool receiver);
+/// From the view's antenna to `tag`, or from there to its receiving one; `gain_db` is the total
+/// one-way gain.
+OneWayLink one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool receiver);
 
-/// Fills in the lines of `link`, whose powers are set, and what is on the way.
+/// Fills in the budget lines of `link`, whose powers must be set, and the obstacles on its paths.
 void add_budget(const RadioView& view, const TagEnd& tag, const RadioLink& of_link,
                 PhysicalLink& link);
 

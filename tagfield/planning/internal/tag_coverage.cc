@@ -14,18 +14,18 @@
 namespace tagfield {
 namespace {
 
-/// A link that holds from one sample on.
+/// A link that is valid from one sample on.
 struct TimedLink {
   Time begin;
   LinkStates states;
   double update_probability = 0.0;
 };
 
-/// Of one tag at one antenna.
+/// Results for one tag at one antenna.
 struct Seen {
   CoverageCell cell;
   double nearest_m = -1.0;
-  std::vector<TimedLink> links;  ///< In order of time.
+  std::vector<TimedLink> links;  ///< In chronological order.
 };
 
 class TagRun {
@@ -41,7 +41,7 @@ class TagRun {
     }
   }
 
-  /// All tags at the request's antenna `number`.
+  /// Evaluates all tags at the request's antenna `number`.
   std::vector<Seen> look(std::size_t number) const {
     const std::size_t antenna = request_.antennas[number];
     std::vector<Seen> seen(scenario_.tags.size());
@@ -57,26 +57,26 @@ class TagRun {
   }
 
  private:
-  /// Those that moved, and in a new place of the antenna those at rest too.
+  /// Evaluates the moving tags, and, at a new pose of the antenna, also those at rest.
   void look_at(std::size_t sample, std::size_t antenna, int number, bool is_place,
                bool antenna_moves, std::vector<Seen>& seen) const {
     std::vector<std::size_t> due;
     for (std::size_t tag = 0; tag < seen.size(); ++tag) {
       if (moving_[tag] == 0 && !is_place) continue;
-      // At rest both, it does not matter when.
+      // With both at rest, time does not matter.
       const bool any_time = !antenna_moves && moving_[tag] == 0;
       const bool is_there = absence_of(scenario_.tags[tag], samples_[sample].stamp).empty();
       if (any_time || is_there) due.push_back(tag);
     }
     if (due.empty()) return;
     const RigidTransform& X_WA = samples_[sample].X_WA[antenna];
-    const AntennaPlace place(scenario_, scenario_.antennas[antenna], *world_, X_WA, request_.seed);
+    const AntennaAtPose place(scenario_, scenario_.antennas[antenna], *world_, X_WA, request_.seed);
     parallel_for(due.size(), request_.threads, [&](std::size_t i) {
       look_at_tag(place, X_WA, sample, due[i], number, seen[due[i]]);
     });
   }
 
-  void look_at_tag(const AntennaPlace& place, const RigidTransform& X_WA, std::size_t sample,
+  void look_at_tag(const AntennaAtPose& place, const RigidTransform& X_WA, std::size_t sample,
                    std::size_t tag, int number, Seen& seen) const {
     thread_local std::vector<RadioPath> paths;
     const RigidTransform& X_WT = samples_[sample].X_WT[tag];
@@ -104,7 +104,7 @@ void add(const Seen& seen, int antenna, TagCoverage& tag) {
   merge(seen.cell, antenna, tag.best);
 }
 
-/// All links of the tags, and who may read them, as the forecast asks for them.
+/// All links of the tags and the ports that may read them, as input of the forecast.
 class RunForecast {
  public:
   RunForecast(const Scenario& scenario, const std::vector<DriveSample>& samples,
@@ -123,7 +123,7 @@ class RunForecast {
     request_.tags.resize(scenario.tags.size());
   }
 
-  /// `seen` must stay where it is until run().
+  /// Keeps pointers into `seen` until run().
   void add(std::size_t port, const std::vector<Seen>& seen) {
     for (std::size_t tag = 0; tag < seen.size(); ++tag) {
       const std::vector<TimedLink>& links = seen[tag].links;
@@ -154,7 +154,7 @@ class RunForecast {
     const bool is_paper = physical(request_.ports[port].antenna) == nullptr;
     ForecastLink told;
     told.port = port;
-    // Before the first sample and after the last all is where it is then.
+    // Before the first sample and after the last, the poses of that sample hold.
     told.begin_s = i == 0 ? 0.0 : to_seconds(link.begin);
     if (i + 1 < links.size()) told.end_s = to_seconds(links[i + 1].begin);
     told.begin_s = std::max(told.begin_s, to_seconds(spec.appears));

@@ -44,7 +44,7 @@ const CoverageCell& cell_at(const Coverage& coverage, double x, double y) {
 
 TEST(Coverage, OfAnIsotropicAntennaIsACircleOfFriissRadius) {
   const Coverage coverage = covered(one_gate(), kAround);
-  // 30 dBm down to −18 dBm.
+  // From 30 dBm down to −18 dBm.
   const double radius_m =
       kSpeedOfLight / kTestCarrier_hz / (4.0 * kPi) * std::pow(10.0, 48.0 / 20.0);
   ASSERT_NEAR(radius_m, 6.92, 0.01);
@@ -66,8 +66,8 @@ TEST(Coverage, HasAShadowBehindMetal) {
   EXPECT_LT(cell_at(coverage, 4.0, 0.0).power_dbm, kLeastPower_db);
   EXPECT_EQ(cell_at(coverage, 4.0, 0.0).antenna, -1);
   EXPECT_EQ(cell_at(coverage, -4.0, 0.0).probability, 1.0);
-  // The shadow's edge at x = 4.1 is at y = 0.5·4.1/1.9 = 1.08 to 1.14: by the front's or the back's
-  // corners.
+  // At x = 4.1 the edge of the shadow is at y = 0.5·4.1/1.9 = 1.08 to 1.14, by the front or the
+  // back corners.
   EXPECT_EQ(cell_at(coverage, 4.1, 0.9).probability, 0.0);
   EXPECT_EQ(cell_at(coverage, 4.1, 1.3).probability, 1.0);
 }
@@ -96,7 +96,7 @@ TEST(Coverage, OfThePapersModelHalvesAtTheRange) {
   parameters.model = PaperAntenna{};
   paper(parameters).range_m = 5.05;
   const Coverage coverage = covered(scenario, kAround);
-  // A cell's middle is at 5.05, 0.05 m.
+  // The centre of a cell is at 5.05, 0.05 m.
   EXPECT_NEAR(cell_at(coverage, 5.05, 0.05).probability, 0.5, 0.01);
   EXPECT_NEAR(cell_at(coverage, 5.05, 0.05).margin_db, 0.0, 0.01);
   EXPECT_GT(cell_at(coverage, 3.05, 0.05).probability, 0.999);
@@ -137,12 +137,12 @@ TEST(Coverage, LooksFromAllPlacesOfADrive) {
   scenario.antennas.front().on = "cart";
   const std::vector<DriveSample> samples = sample_drive(scenario, 1, std::nullopt);
   const std::vector<std::size_t> places = places_of(samples, 0);
-  // 12 m in steps that are 0.25 m or, at 15 Hz, a little more.
+  // 12 m in steps of 0.25 m or, at 15 Hz, slightly more.
   EXPECT_GE(places.size(), 40U);
   EXPECT_LE(places.size(), 50U);
   const Eigen::AlignedBox2d region(Eigen::Vector2d(-8.0, -8.0), Eigen::Vector2d(8.0, 8.0));
   const Coverage coverage = cover(scenario, samples, request_for(scenario, region, 0.5));
-  // A strip beside the way is as far from it as it is in y.
+  // The antenna passes the cell at the same x: the least distance is that in y.
   EXPECT_NEAR(cell_at(coverage, 2.1, 4.1).power_dbm, 30.0 + friis_db(4.25), 0.05);
   EXPECT_EQ(cell_at(coverage, -4.1, 6.6).probability, 1.0);
   const std::vector<DriveSample> moment = sample_drive(scenario, 1, time_from_seconds(1.0));
@@ -172,8 +172,9 @@ TEST(LocalLink, OfASingleWayIsTheLinkItself) {
 }
 
 TEST(LocalLink, PlacesAQuarterWavelengthApartAverageAStandingWave) {
-  // A metal wall square to the way mirrors all: 1 + a − 2√a cos(2kx) has the mean 1 + a over x and
-  // over x ± λ/4, where cos(2kx) turns its sign, so two places in three weigh against one.
+  // A metal wall perpendicular to the path reflects everything: 1 + a − 2√a cos(2kx) has the mean 1
+  // + a over x. At x ± λ/4, cos(2kx) has the opposite sign, so two positions in three weigh against
+  // one.
   RadioModel model = isotropic_model();
   model.effects.reflections = true;
   model.reflection_order = 1;
@@ -194,7 +195,7 @@ TEST(LocalLink, PlacesAQuarterWavelengthApartAverageAStandingWave) {
     least = std::min(least, level);
     most = std::max(most, level);
   }
-  // a = (50/69)², and a third of the standing wave is left: 1 + a ± 2√a/3.
+  // a = (50/69)², and a third of the standing wave remains: 1 + a ± 2√a/3.
   const double a = std::pow(50.0 / 69.0, 2);
   EXPECT_NEAR(least, 1.0 + a - 2.0 * std::sqrt(a) / 3.0, 0.06);
   EXPECT_NEAR(most, 1.0 + a + 2.0 * std::sqrt(a) / 3.0, 0.06);

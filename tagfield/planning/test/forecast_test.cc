@@ -12,10 +12,10 @@
 namespace tagfield {
 namespace {
 
-/// States that are heard on the first `heard` of eight carriers, in all places.
+/// States heard on the first `heard` of eight carriers, at all positions.
 LinkStates heard_on(std::size_t heard) {
   std::vector<double> margins;
-  for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+  for (std::size_t place = 0; place < kFadingPositions; ++place) {
     for (std::size_t carrier = 0; carrier < 8; ++carrier) {
       margins.push_back(carrier < heard ? 5.0 : -5.0);
     }
@@ -56,7 +56,7 @@ TEST(LinkStates, AreKeptToAQuarterOfADecibel) {
   EXPECT_DOUBLE_EQ(states.share_heard(5.25), 0.0);
   EXPECT_DOUBLE_EQ(states.best_db(), 5.0);
   EXPECT_TRUE(LinkStates(std::vector<double>(72, kNothing_db)).is_empty());
-  // Never more than there is.
+  // Never rounded up.
   EXPECT_DOUBLE_EQ(LinkStates(std::vector<double>(9, 0.2)).best_db(), 0.0);
   EXPECT_DOUBLE_EQ(LinkStates(std::vector<double>(9, -0.01)).best_db(), -0.25);
 }
@@ -75,12 +75,12 @@ TEST(Forecast, ReadsWhatIsHeardAndNothingElse) {
 
 TEST(Forecast, OfASampledCarrierIsTheChanceOfItsChannelsToBeOn) {
   const LinkStates one = heard_on(1);
-  // Two channels of fifty, none of them twice; the first of the sampled carriers stands for seven.
+  // Two different channels of fifty; the first sampled carrier represents seven.
   ForecastRequest request = one_port(one, 1, 2.0 * known_plan("fcc").dwell_s);
   request.samples = 20000;
   const Forecast made = forecast(request);
   const double p = 1.0 - (43.0 * 42.0) / (50.0 * 49.0);
-  // 4 standard deviations of a mean.
+  // Within 4 standard errors.
   EXPECT_NEAR(made.probability[0], p, 4.0 * std::sqrt(p * (1.0 - p) / 20000.0));
 }
 
@@ -88,7 +88,7 @@ TEST(Forecast, SharesSlotsAmongMany) {
   const LinkStates all = heard_on(8);
   const ForecastRequest request = one_port(all, 2000, 1.0);
   const LinkSettings link = physical(request.ports[0].antenna)->gen2->link;
-  // Framed ALOHA at its best reads in 1/e of the slots, with as many empty (R. Roberts, 1975).
+  // Framed ALOHA at its optimum reads in 1/e of the slots, with as many empty (R. Roberts, 1975).
   const double read = std::exp(-1.0);
   const double slot_s = query_rep_s(link, Session::kS1) + read * read_slot_s(link) +
                         read * empty_slot_s(link) + (1.0 - 2.0 * read) * collided_slot_s(link);
@@ -98,8 +98,8 @@ TEST(Forecast, SharesSlotsAmongMany) {
   EXPECT_GT(made.tags_read.mean, 0.7 * best);
 }
 
-/// Tags that were read keep silent until all are, whatever the session, and also where a reader
-/// then asks them again. So as many reads as there are tags take all of them in.
+/// Tags that were read stay silent until all are read, whatever the session, even if a reader then
+/// inventories them again. So as many reads as there are tags include all of them.
 TEST(Forecast, ReadsAllTagsOnceBeforeAnyTwice) {
   const LinkStates all = heard_on(8);
   for (const Session session : {Session::kS0, Session::kS2}) {
@@ -110,7 +110,7 @@ TEST(Forecast, ReadsAllTagsOnceBeforeAnyTwice) {
     request.ports = {asked};
     request.ports[0].antenna.model = std::make_shared<const RadioModel>(model);
     const double slot_s = query_rep_s(model.gen2->link, session) + read_slot_s(model.gen2->link);
-    // A slot a tag at the least, and 0.7/e of the slots in which one is read at the worst.
+    // At least one slot per tag; at worst a read in 0.7/e of the slots.
     request.duration_s = 150.0 * slot_s * std::exp(1.0) / 0.7;
     EXPECT_EQ(forecast(request).tags_read.mean, 150.0);
     request.duration_s = 75.0 * slot_s;
@@ -129,7 +129,7 @@ TEST(Forecast, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(RangeOf, IsStudentsPredictionRange) {
-  // Of 10 samples 0 … 9: mean 4.5, s = 3.0277, t(0.975; 9) = 2.262; half a count besides.
+  // For 10 samples 0 … 9: mean 4.5, s = 3.0277, t(0.975; 9) = 2.262; plus half a count.
   std::vector<double> samples;
   for (int i = 0; i < 10; ++i) samples.push_back(i);
   const Forecasted range = range_of(samples, 100.0);

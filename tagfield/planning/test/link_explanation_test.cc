@@ -24,7 +24,7 @@ Scenario three_metres_apart() {
                    physical_tag("tag", {3.0, 0.0, 1.0}));
 }
 
-/// The lines must add up, whatever they say.
+/// The lines must add up, whatever their texts.
 void expect_sums(const LinkExplanation& link) {
   EXPECT_NEAR(sum_of(link.physical->to_tag), link.physical->tag_dbm, 0.01);
   EXPECT_NEAR(sum_of(link.physical->to_reader), link.physical->reply_dbm, 0.01);
@@ -43,7 +43,7 @@ TEST(LinkExplanation, IsFriisInFreeSpace) {
 }
 
 TEST(LinkExplanation, GivesTheTabulatedRepliesAtOneTwoAndFiveMetres) {
-  // 35.15 dBm EIRP by 6 dBi circular, a tag of 2 dBi linear, modulation −5 dB.
+  // 35.15 dBm EIRP with a 6 dBi circular antenna, a 2 dBi linear tag, modulation −5 dB.
   RadioModel model = isotropic_model();
   model.effects.polarization = true;
   model.transmit_power_dbm = 29.15;
@@ -76,7 +76,7 @@ TEST(LinkExplanation, NamesWhatBlocksTheOnlyWay) {
 }
 
 TEST(LinkExplanation, SaysBehindWhatTheTagIs) {
-  // 9 m: 30 − 50.3 = −20.3 dBm even in free space; concrete takes more.
+  // 9 m: 30 − 50.3 = −20.3 dBm even in free space; concrete attenuates further.
   Scenario scenario = three_metres_apart();
   scenario.tags.front() = physical_tag("tag", {9.0, 0.0, 1.0});
   const LinkExplanation open = explained(scenario);
@@ -86,7 +86,7 @@ TEST(LinkExplanation, SaysBehindWhatTheTagIs) {
   EXPECT_NE(behind.verdict.find("at the tag, behind crate (concrete)"), std::string::npos)
       << behind.verdict;
   expect_sums(behind);
-  // What the box takes is the whole difference, and stands in a line of its own.
+  // The loss by the box is the whole difference, and has its own line.
   double crate_db = 0.0;
   for (const BudgetLine& line : behind.physical->to_tag) {
     if (line.what.rfind("through crate (concrete, 0.30 m)", 0) == 0) crate_db = line.db;
@@ -108,7 +108,7 @@ TEST(LinkExplanation, AddsUpWithReflections) {
   ASSERT_EQ(link.physical->paths.size(), 2U);
   const PathExplanation& mirrored = link.physical->paths.back();
   EXPECT_EQ(mirrored.order, 1);
-  // By the image 2·2.9 m aside.
+  // By the image at 2·2.9 m to the side.
   EXPECT_NEAR(mirrored.length_m, std::hypot(3.0, 5.8), 1e-9);
   EXPECT_NEAR(mirrored.excess_m, std::hypot(3.0, 5.8) - 3.0, 1e-9);
   ASSERT_EQ(mirrored.bounces.size(), 1U);
@@ -163,7 +163,7 @@ TEST(LinkExplanation, PapersProbabilityIsThatOfItsNormalDistribution) {
   paper(antenna).range_m = 7.0;
   paper(antenna).range_sigma = 0.05;
   EXPECT_NEAR(read_probability(antenna, 7.0), 0.5, 1e-9);
-  // One, and two, sigma beyond and within: the normal distribution's table.
+  // One sigma beyond and two sigma within: from a table of the normal distribution.
   EXPECT_NEAR(read_probability(antenna, 7.35), 0.158655, 1e-5);
   EXPECT_NEAR(read_probability(antenna, 6.30), 0.977250, 1e-5);
   paper(antenna).range_sigma = 0.0;

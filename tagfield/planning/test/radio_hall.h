@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Small physical scenarios whose links have closed forms.
+/// Small physical scenarios whose links have closed-form solutions.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@ inline double friis_db(double distance_m) {
   return 20.0 * std::log10(kSpeedOfLight / kTestCarrier_hz / (4.0 * kPi * distance_m));
 }
 
-/// An isotropic antenna by the link budget, 30 dBm, without polarization.
+/// An isotropic antenna, 30 dBm, link budget only, without polarization.
 inline RadioModel isotropic_model() {
   RadioModel model;
   model.plan = fixed_plan(kTestCarrier_hz);
@@ -67,7 +67,7 @@ inline Scenario hall_with(const AntennaSpec& antenna, const TagSpec& tag) {
   return scenario;
 }
 
-/// Puts one box of a material into the scenario's world.
+/// Adds a box of a material to the scenario's world.
 inline void add_box(Scenario& scenario, const std::string& material, const Eigen::Vector3d& middle,
                     const Eigen::Vector3d& size) {
   Scene scene;

@@ -46,7 +46,7 @@ Eigen::Matrix3d matrix_of_rpy(const Eigen::Vector3d& rpy) {
 }
 
 TEST(RigidTransform, TakesPointsFromTheInnerFrameToTheOuter) {
-  // B stands at (1, 2, 0) in A and looks along A's y.
+  // B is at (1, 2, 0) in A and faces along A's y.
   const RigidTransform X_AB = from_planar(1.0, 2.0, kPi / 2.0);
   EXPECT_TRUE((X_AB * Eigen::Vector3d(3.0, 0.0, 1.0)).isApprox(Eigen::Vector3d(1.0, 5.0, 1.0)));
 }
@@ -133,7 +133,7 @@ RC_GTEST_PROP(Interpolate, TurnsAsEigensSlerp, ()) {
   const auto angle = [] { return 1e-3 * *rc::gen::inRange(-3141, 3142); };
   const auto any = [&] { return from_xyz_rpy({}, {angle(), angle(), angle()}); };
   const RigidTransform from = any();
-  // Far from it, and as near as neighbouring poses are.
+  // Far from it, and as close as neighbouring poses.
   const RigidTransform near = from * from_xyz_rpy({}, {1e-6 * angle(), 0.0, 1e-9 * angle()});
   for (const RigidTransform& to : {any(), near}) {
     const double fraction = 0.01 * *rc::gen::inRange(0, 101);
@@ -150,7 +150,7 @@ RC_GTEST_PROP(RotationInPlane, IsEigens, ()) {
 }
 
 TEST(Interpolate, TurnsTheShorterWay) {
-  // From 170° to -170° through 180°, whichever sign the quaternions have.
+  // From 170° to -170° through 180°, whatever the sign of the quaternions.
   const RigidTransform from = from_planar(0.0, 0.0, radians(170.0));
   RigidTransform to = from_planar(0.0, 0.0, radians(-170.0));
   for (int sign = 0; sign < 2; ++sign) {

@@ -19,7 +19,7 @@ StampedPose pose(double seconds, double x, double yaw = 0.0) {
   return {at(seconds), from_planar(x, 0.0, yaw)};
 }
 
-/// At 0 m until 1 s, then 1 m/s to 3 m, with a turn on the way.
+/// At 0 m until 1 s, then at 1 m/s to 3 m, turning along the way.
 Trajectory moving() {
   return {pose(0.0, 0.0), pose(1.0, 0.0), pose(2.0, 1.0), pose(4.0, 3.0, 1.0)};
 }
@@ -53,11 +53,11 @@ TEST(PoseAt, OfOnePoseStandsForEver) {
 
 TEST(PoseAt, RefusesGapsLongerThanAllowed) {
   const Duration second = std::chrono::seconds(1);
-  EXPECT_TRUE(pose_at(moving(), at(1.5), second).has_value());  // Exactly as long.
+  EXPECT_TRUE(pose_at(moving(), at(1.5), second).has_value());  // A gap of exactly max_gap.
   EXPECT_FALSE(pose_at(moving(), at(3.0), second).has_value());
   EXPECT_FALSE(pose_at(moving(), at(1.5), second - Duration(1)).has_value());
   EXPECT_TRUE(pose_at(moving(), at(3.0), 2 * second).has_value());
-  EXPECT_EQ(x_of(pose_at(moving(), at(4.0), Duration(1))), 3.0);  // On a stamp there is no gap.
+  EXPECT_EQ(x_of(pose_at(moving(), at(4.0), Duration(1))), 3.0);  // On a timestamp: no gap.
 }
 
 TEST(PoseAt, CrossesLongGapsOfABodyThatStood) {

@@ -9,8 +9,8 @@
 namespace tagfield {
 namespace {
 
-/// Beams and windows are wider by this at each side, so that rounding takes nothing away that the
-/// exact test would let pass [m].
+/// Beams and windows are enlarged by this on each side, so that rounding excludes nothing that the
+/// exact test would accept [m].
 constexpr double kMargin = 1e-6;
 
 /// A convex polygon: a rectangle cut by up to five planes, each of which adds at most one corner.
@@ -100,13 +100,13 @@ BeamSides beam_through(const Window& window, const Image& image, const Facet& fa
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector3d edge = polygon[(i + 1) % 4] - polygon[i];
     Eigen::Vector3d normal = edge.cross(polygon[i] - image.p_W).normalized();
-    // Inwards: the corner opposite is inside.
+    // The normal points inwards: the opposite corner is inside.
     const Eigen::Vector3d inside = i < 2 ? Eigen::Vector3d(polygon[i + 2] - image.p_W)
                                          : Eigen::Vector3d(polygon[i - 2] - image.p_W);
     if (normal.dot(inside) < 0.0) normal = -normal;
     beam.row(static_cast<int>(i)) << normal.transpose(), -normal.dot(image.p_W);
   }
-  // An image that is in the plane of its window's edge, as rounding can have it.
+  // Rounding may put an image into the plane of its window's edge.
   return across.allFinite() && beam.allFinite() ? beam : open_beam();
 }
 

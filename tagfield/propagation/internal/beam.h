@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What can be seen through a chain of mirrors.
+/// Beams: the regions that a chain of reflections reaches.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace tagfield {
 
-/// Where an image can be seen, and a bit more: the points p [m, world] with n·p + w ≥ 0 for each
-/// row (n, w), n a unit vector. Rows that aren't needed are (0, 0, 0, 1).
+/// The region from which an image is visible, slightly enlarged: the points p [m, world] with n·p +
+/// w ≥ 0 for each row (n, w), n a unit vector. Unused rows are (0, 0, 0, 1).
 using BeamSides = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 /// Part of a facet's bounding rectangle, in its own frame [m].
@@ -23,25 +23,25 @@ struct Window {
 /// The facet's whole rectangle.
 Window whole_window(const Facet& facet);
 
-/// What of `facet` lies in `beam` and in front of the mirror of `image`, bounded by a rectangle;
-/// nothing if nothing does. `facet` must be bounded.
+/// Bounding rectangle of the part of `facet` that is inside `beam` and in front of the facet of
+/// `image`, if there is such a part. `facet` must be bounded.
 std::optional<Window> window_in(const BeamSides& beam, const Image& image, const Facet& facet);
 
 /// The beam from `image` through a window of its facet.
 BeamSides beam_through(const Window& window, const Image& image, const Facet& facet);
 
-/// The beam after an endless mirror.
+/// `beam` after reflection by the unbounded facet of `image`.
 BeamSides mirrored_beam(const BeamSides& beam, const Image& image);
 
-/// Everywhere.
+/// A beam that covers all of space.
 BeamSides open_beam();
 
-/// Beams and mirrors of `images`, as an ImageSet has them.
+/// Beams and facet planes of `images`, in the format of ImageSet::beams.
 std::vector<BeamBlock> beam_blocks(const std::vector<Image>& images,
                                    const std::vector<BeamSides>& beams,
                                    const Eigen::Vector3d& p_WA);
 
-/// For each lane whether `p` [m, from the antenna] may see its image, as a number ≥ 0.
+/// For each lane, a number ≥ 0 if its image may be visible from `p` [m, relative to the antenna].
 BeamBlock::Lanes seen_from(const BeamBlock& block, const Eigen::Vector3f& p);
 
 /// Distance from `p` to the nearest point of the window [m].

@@ -7,10 +7,10 @@
 namespace tagfield {
 namespace {
 
-/// More than single precision may be off by, of what is added up.
+/// Upper bound on the rounding error in single precision, relative to the terms of the sum.
 constexpr double kSingle = 1e-6;
 
-/// Takes the plane n·p + w ≥ 0 of the world down as one seen from the antenna.
+/// Stores the half space n·p + w ≥ 0 [world] relative to the antenna.
 void put(const Eigen::Vector4d& plane, const Eigen::Vector3d& p_WA, std::size_t k, int lane,
          BeamBlock& block) {
   const double offset = plane.head<3>().dot(p_WA) + plane.w();

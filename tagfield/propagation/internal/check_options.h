@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// TraceOptions' ranges.
+/// Checks of TraceOptions and of the ends of paths.
 #pragma once
 
 #include "tagfield/propagation/trace_paths.h"
@@ -11,7 +11,8 @@ namespace tagfield {
 /// 0 ≤ mount_depth_m ≤ 1.
 void check(const TraceOptions& options);
 
-/// Whether an end can be there: finite, and as near to the world's origin as its vertices must be.
+/// Whether an end may be at `p_W`: finite, and within the limit for vertices (1e9 m from the
+/// world's origin along each axis).
 inline bool is_place(const Eigen::Vector3d& p_W) {
   return p_W.allFinite() && p_W.cwiseAbs().maxCoeff() <= 1e9;
 }

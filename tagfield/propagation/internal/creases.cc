@@ -13,12 +13,12 @@
 namespace tagfield {
 namespace {
 
-/// Surfaces that are bent by less are round [rad].
+/// Surfaces that are bent by less count as round [rad].
 constexpr double kLeastBend = radians(40.0);
-/// A vertex this near to a side lies on it [m].
+/// A vertex this close to a side lies on it [m].
 constexpr double kOnSide = 2e-5;
-constexpr double kSameWay = 1.0 - 1e-6;  ///< Cosine between lines that are one.
-constexpr double kSameFace = 0.999;      ///< Likewise of faces; small triangles' are noisy.
+constexpr double kSamePath = 1.0 - 1e-6;  ///< Minimum cosine between segments of one line.
+constexpr double kSameFace = 0.999;       ///< Same for faces; normals of small triangles are noisy.
 
 using Eigen::Vector3d;
 
@@ -35,8 +35,8 @@ Vector3d normal_of(const WeldedMesh& mesh, std::uint32_t triangle) {
   return (mesh.vertices[b] - p).cross(mesh.vertices[c] - p).normalized();
 }
 
-/// Sides that one triangle alone has, as of sheets, or where vertices of the next triangle lie on
-/// them: cut at these.
+/// Cuts the sides that belong to a single triangle at the vertices that lie on them. Such sides are
+/// borders of sheets, or have T-junctions with adjacent triangles.
 class SideCutter {
  public:
   explicit SideCutter(const WeldedMesh& mesh) : mesh_(mesh), by_x_(mesh.vertices.size()) {
@@ -89,7 +89,7 @@ class SideCutter {
   std::vector<std::uint32_t> by_x_;
 };
 
-/// The face that a triangle is at its side `edge`, whose unit vector is `axis`.
+/// The wedge face that a triangle forms at its side `edge`, whose unit vector is `axis`.
 WedgeFace face_of(const WeldedMesh& mesh, const Edge& edge, const Vector3d& axis) {
   WedgeFace face;
   face.normal_W = normal_of(mesh, edge.triangle);
@@ -97,7 +97,7 @@ WedgeFace face_of(const WeldedMesh& mesh, const Edge& edge, const Vector3d& axis
   return face;
 }
 
-/// Where a sheet ends: both its sides are faces.
+/// The border of a sheet: both of its sides are faces.
 DiffractingEdge border(const WedgeFace& face) {
   DiffractingEdge edge;
   edge.faces = {face, {face.into_W, -face.normal_W, false}};
@@ -106,13 +106,13 @@ DiffractingEdge border(const WedgeFace& face) {
   return edge;
 }
 
-/// Where two faces meet; of a sheet seen from the side to which it is bent outwards.
+/// The edge between two faces; for a sheet, on its convex side.
 std::optional<DiffractingEdge> bend(WedgeFace one, WedgeFace other, bool closed) {
   DiffractingEdge edge;
   edge.is_sheet = !closed;
   if (!closed && one.normal_W.dot(other.into_W) > 0.0) one.normal_W = -one.normal_W;
   if (!closed && other.normal_W.dot(one.into_W) > 0.0) other.normal_W = -other.normal_W;
-  if (one.normal_W.dot(other.into_W) >= 0.0) return std::nullopt;  // Bent inwards.
+  if (one.normal_W.dot(other.into_W) >= 0.0) return std::nullopt;  // Concave.
   const double by = std::acos(std::clamp(one.normal_W.dot(other.normal_W), -1.0, 1.0));
   if (by < kLeastBend) return std::nullopt;
   edge.faces = {one, other};
@@ -124,8 +124,8 @@ bool is_before(const Vector3d& a, const Vector3d& b) {
   return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
 }
 
-/// Which of a line's two directions counts: that in which the first coordinate to change grows,
-/// rounding errors apart.
+/// Whether this is the canonical one of a line's two directions: the first coordinate that changes,
+/// apart from rounding errors, increases.
 bool goes_forward(const Vector3d& way) {
   constexpr double kRounding = 1e-6;
   for (int axis = 0; axis < 3; ++axis) {
@@ -134,7 +134,7 @@ bool goes_forward(const Vector3d& way) {
   return true;
 }
 
-/// Begins at the end that comes first, with the faces in the right hand's order.
+/// Starts the edge at the end that comes first, and orders the faces by the right-hand rule.
 void set_line(const Vector3d& a, const Vector3d& b, DiffractingEdge& edge) {
   const bool forward = goes_forward(b - a);
   edge.from_W = forward ? a : b;
@@ -174,7 +174,7 @@ std::vector<Segment> segments_of(const WeldedMesh& mesh) {
 }
 
 bool is_one_line(const DiffractingEdge& one, const DiffractingEdge& other) {
-  if (one.axis_W.dot(other.axis_W) < kSameWay || one.is_sheet != other.is_sheet) return false;
+  if (one.axis_W.dot(other.axis_W) < kSamePath || one.is_sheet != other.is_sheet) return false;
   for (std::size_t i = 0; i < 2; ++i) {
     if (one.faces[i].normal_W.dot(other.faces[i].normal_W) < kSameFace) return false;
     if (one.faces[i].into_W.dot(other.faces[i].into_W) < kSameFace) return false;
@@ -187,7 +187,7 @@ std::size_t welded_root(std::vector<std::size_t>& parents, std::size_t i) {
   return i;
 }
 
-/// Segments that go on into one another get one welded_root.
+/// Segments that continue each other get the same welded_root().
 std::vector<std::size_t> joined(const std::vector<Segment>& segments) {
   std::vector<std::pair<std::uint32_t, std::size_t>> at;
   for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -209,7 +209,7 @@ std::vector<std::size_t> joined(const std::vector<Segment>& segments) {
 
 Vector3d end_of(const DiffractingEdge& edge) { return edge.from_W + edge.length_m * edge.axis_W; }
 
-/// `edge` grown to hold `part` too, on the same line.
+/// Extends `edge` to include `part`, which is on the same line.
 void grow(const DiffractingEdge& part, DiffractingEdge& edge) {
   const bool begins = goes_forward(edge.from_W - part.from_W) && part.from_W != edge.from_W;
   const bool ends = goes_forward(end_of(part) - end_of(edge)) && end_of(part) != end_of(edge);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where a solid's surface is bent or ends, in pieces as its triangles have them.
+/// Creases and borders of a solid's surface.
 #pragma once
 
 #include <array>
@@ -11,8 +11,9 @@
 
 namespace tagfield {
 
-/// Straight edges of a mesh, as diffracting_edges() describes them, but neither covered ones nor
-/// short ones left out, and `solid` and `mirrors` not set. In the order of their ends' coordinates.
+/// Straight edges of a mesh as described at diffracting_edges(), but including covered and short
+/// ones, and without merging those of plates. `solid` and `mirrors` are not set. Sorted by the
+/// coordinates of their ends.
 std::vector<DiffractingEdge> creases(const WeldedMesh& mesh);
 
 }  // namespace tagfield

@@ -7,8 +7,8 @@
 namespace tagfield {
 namespace {
 
-/// Hits of one solid that are nearer to each other are at one place: touching parts of the solid, a
-/// sheet with two faces, or an edge that two triangles share [m].
+/// Hits of one solid closer together than this coincide: touching parts of the solid, a sheet with
+/// two faces, or an edge that two triangles share [m].
 constexpr double kSameCrossing = 1e-5;
 
 using Hits = std::vector<SurfaceHit>::iterator;
@@ -22,7 +22,8 @@ bool is_closed(const RadioScene& scene, const SurfaceHit& hit) {
   return scene.shells()[scene.shell_of(hit.collision, hit.triangle)].closed;
 }
 
-/// One solid's hits in order: at one place those that enter first, and each way only once.
+/// Merges coincident hits of one solid: at most one entry, then at most one exit. Returns the new
+/// end.
 Hits tidy(const RadioScene& scene, Hits begin, Hits end) {
   const auto enters_it = [&](const SurfaceHit& hit) { return enters(scene, hit); };
   Hits out = begin;
@@ -42,8 +43,8 @@ Hits tidy(const RadioScene& scene, Hits begin, Hits end) {
   return out;
 }
 
-/// Whether a line from the place upwards, a bit aslant, meets the solid's closed surfaces an odd
-/// number of times: the usual case, quickly.
+/// Whether a slightly tilted line upwards from the point hits the solid's closed surfaces an odd
+/// number of times: a fast test for the usual case.
 bool seems_in(const RadioScene& scene, std::uint32_t solid, const Eigen::Vector3d& p_W) {
   thread_local std::vector<SurfaceHit> hits;
   const Eigen::Vector3d upwards = Eigen::Vector3d(0.0713, 0.0391, 0.9967).normalized();
@@ -56,7 +57,7 @@ bool seems_in(const RadioScene& scene, std::uint32_t solid, const Eigen::Vector3
          0;
 }
 
-/// Whether the solid is around a place.
+/// Whether the point is inside the solid.
 bool is_in(const RadioScene& scene, std::uint32_t solid, const Eigen::Vector3d& p_W) {
   if (seems_in(scene, solid, p_W)) return true;
   const std::vector<char> around = shells_around(scene, p_W);
@@ -66,8 +67,8 @@ bool is_in(const RadioScene& scene, std::uint32_t solid, const Eigen::Vector3d& 
   return false;
 }
 
-/// Adds one solid's brackets. A hit without its like is looked at more closely: where the leg
-/// grazes an edge, Embree may see one side of it alone.
+/// Adds one solid's segments by matching its hits. Unmatched hits are checked more closely: where
+/// the leg grazes an edge, Embree may report only one side of it.
 void match(const RadioScene& scene, const Leg& leg, const Eigen::Vector3d& direction_W, Hits begin,
            Hits end, double length_m, CrossingScratch& scratch) {
   const auto is_inside = [&](const SurfaceHit& hit, double at_m) {
@@ -93,7 +94,7 @@ void match(const RadioScene& scene, const Leg& leg, const Eigen::Vector3d& direc
   }
 }
 
-/// Joins what overlaps of one solid's, those from `first` on.
+/// Merges overlapping segments of one solid, those from `first` on.
 void join(std::vector<Inside>& inside, std::size_t first) {
   if (inside.size() < first + 2) return;
   const auto begin = inside.begin() + static_cast<std::ptrdiff_t>(first);

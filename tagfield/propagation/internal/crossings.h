@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Surfaces that a leg meets to the solids that it goes through.
+/// Conversion of the surfaces that a leg hits into the solids that it crosses.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace tagfield {
 
-/// Whether the hit leads into what its triangle's shell encloses.
+/// Whether the leg enters the volume of the triangle's shell at this hit.
 bool enters(const RadioScene& scene, const SurfaceHit& hit);
 
-/// Adds a crossing for each stretch within a solid: from a hit that enters to the one of that solid
-/// that leaves again, in each other like brackets, and overlapping ones joined. A hit without its
-/// like counts to the leg's end if the solid is around that, else as a sheet of length 0. `hits`
-/// are those on the leg, at distances from 0 to its `length_m` in direction `direction_W`; they are
-/// reordered.
+/// Adds a crossing for each segment inside a solid: from an entry hit to the exit hit of the same
+/// solid. Hits are matched like nested brackets, and overlapping segments are merged. An unmatched
+/// hit extends to the leg's start or end if that is inside the solid; otherwise it is a sheet of
+/// length 0. `hits` are those on the leg, at distances from 0 to its `length_m` in direction
+/// `direction_W`; they are reordered.
 void add_crossings(const RadioScene& scene, const Leg& leg, const Eigen::Vector3d& direction_W,
                    double length_m, std::vector<SurfaceHit>& hits, CrossingScratch& scratch,
                    std::vector<Crossing>& crossings);

@@ -11,9 +11,9 @@ namespace tagfield {
 namespace {
 
 constexpr double kFlatPiece = 1e-4;   // [m]
-constexpr double kSameNormal = 0.99;  // Cosine between normals; small triangles' are noisy.
-constexpr double kRectangle = 1e-9;   // Of the area.
-/// Directions of so many edges are tried for the bounding rectangle.
+constexpr double kSameNormal = 0.99;  // Cosine between normals; those of small triangles are noisy.
+constexpr double kRectangle = 1e-9;   // Relative to the area.
+/// The edges of at most this many triangles are tried as directions of the bounding rectangle.
 constexpr std::size_t kMostDirections = 64;
 
 using Corners = std::array<Eigen::Vector3d, 3>;
@@ -64,7 +64,8 @@ class Grower {
     return order;
   }
 
-  /// In the seed's plane; of open sheets whichever way it faces, as nobody keeps to it there.
+  /// Whether the triangle is in the seed's plane. In open sheets, triangles may face either side,
+  /// as their orientation is unreliable there.
   [[nodiscard]] bool is_flat_with(std::uint32_t triangle, const Eigen::Vector3d& p,
                                   const Eigen::Vector3d& normal) const {
     const Corners abc = corners(triangle);
@@ -97,7 +98,7 @@ class Grower {
   std::vector<std::vector<std::uint32_t>> neighbours_;
 };
 
-/// The plane of least error, nearly: through the centroid, along the mean normal.
+/// Approximately the best-fit plane: through the centroid, with the mean normal.
 void set_plane(Facet& facet) {
   const Eigen::Vector3d first = vector_area(facet.triangles_W.front());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -140,7 +141,7 @@ Rectangle rectangle_along(const Facet& facet, const Eigen::Vector3d& direction) 
   return found;
 }
 
-/// The least rectangle along one of the triangles' edges.
+/// The smallest bounding rectangle along one of the triangles' edges.
 void set_rectangle(Facet& facet) {
   Rectangle least;
   for (std::size_t i = 0; i < std::min(facet.triangles_W.size(), kMostDirections); ++i) {

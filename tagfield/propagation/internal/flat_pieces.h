@@ -10,12 +10,13 @@
 
 namespace tagfield {
 
-/// Triangles that are flat to 0.1 mm and joined by edges, of those that `mirrors` (by triangle of
-/// `mesh`) allows. Their `solid` and `shell` are left 0; `shell` is the piece's index.
+/// Facets made of triangles that are flat to 0.1 mm and joined by edges, using only triangles for
+/// which `mirrors` (by triangle of `mesh`) is nonzero. Their `solid` is left 0; `shell` is the
+/// piece's index.
 std::vector<Facet> flat_pieces(const WeldedMesh& mesh, const std::vector<Edge>& edges,
                                const Pieces& pieces, const std::vector<char>& mirrors);
 
-/// The endless facet of a plane.
+/// The unbounded facet of a plane.
 Facet endless_facet(const Eigen::Vector3d& normal_W, double offset_m);
 
 }  // namespace tagfield

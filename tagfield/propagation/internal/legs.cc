@@ -9,15 +9,16 @@
 namespace tagfield {
 namespace {
 
-/// What is less high above a mirror's plane is the mirror, or flush with it [m].
+/// Surfaces less than this above the plane of a bounce's facet are that facet, or flush with it
+/// [m].
 constexpr double kMirrorHeight = 1e-5;
-/// An end this near to a surface's plane is on it [m].
+/// An end this close to a surface's plane is on it [m].
 constexpr double kTouch = 1e-5;
-/// How far along the leg from a free end surfaces count as those it is mounted on, in depths: up to
-/// 82° from the normal.
+/// Distance along the leg from a free end, in mount depths, within which a surface can be the one
+/// that the end is mounted on: up to 82° from the normal.
 constexpr double kReach = 7.0;
 
-/// A leg with what to look at of it: from `begin` to `end`, a bit more than the leg at free ends.
+/// A leg and the part of it to search: from `begin` to `end`, slightly beyond free ends.
 struct Span {
   Eigen::Vector3d direction_W;
   double length = 0.0;
@@ -43,11 +44,11 @@ Span span_of(const Leg& leg, double mount_depth) {
   return span;
 }
 
-/// What a leg's hit is to one of its free ends.
+/// Position of a hit on a leg relative to one of its free ends.
 struct FromEnd {
-  double back = 0.0;    ///< Along the leg from the end to the hit, back into the leg [m].
+  double back = 0.0;    ///< Distance from the end to the hit, back along the leg [m].
   double depth = 0.0;   ///< How deep the end is behind the hit's plane, seen from the leg [m].
-  bool enters = false;  ///< Towards the end.
+  bool enters = false;  ///< Whether a ray towards the end enters the shell here.
 };
 
 FromEnd at_tag(const RadioScene& scene, const Span& span, const SurfaceHit& hit) {
@@ -60,9 +61,9 @@ FromEnd at_antenna(const RadioScene& scene, const Span& span, const SurfaceHit& 
   return {hit.distance_m, hit.distance_m * std::abs(hit.slope), !enters(scene, hit)};
 }
 
-/// Whether `hit` is the surface on which the end is mounted: the end touches it, or is behind it by
-/// no more than the depth and nearer to it than to where its shell is left again, so that a thin
-/// plate doesn't let through what is mounted on its back.
+/// Whether `hit` is on the surface that the end is mounted on: the end touches it, or is behind it
+/// by at most the mount depth and closer to it than to the opposite side of its shell, so that what
+/// is mounted on the back of a thin plate isn't visible through it.
 template <class AtEnd>
 bool is_mount(const RadioScene& scene, const Span& span, const std::vector<SurfaceHit>& hits,
               const SurfaceHit& hit, double mount_depth, const AtEnd& at_end) {
@@ -89,11 +90,11 @@ bool counts(const RadioScene& scene, const Leg& leg, const Span& span,
   return hit.distance_m >= 0.0 && hit.distance_m <= span.length;
 }
 
-Stretch stretch_of(const Leg& leg, const Span& span) {
-  Stretch stretch{leg.from_W, span.direction_W, span.begin, span.end};
-  if (leg.from_normal_W == nullptr) stretch.stop_from_m = span.reach;
-  if (leg.to_normal_W == nullptr) stretch.stop_to_m = span.length - span.reach;
-  return stretch;
+RaySegment segment_of(const Leg& leg, const Span& span) {
+  RaySegment segment{leg.from_W, span.direction_W, span.begin, span.end};
+  if (leg.from_normal_W == nullptr) segment.stop_from_m = span.reach;
+  if (leg.to_normal_W == nullptr) segment.stop_to_m = span.length - span.reach;
+  return segment;
 }
 
 }  // namespace
@@ -102,7 +103,7 @@ bool is_clearly_stopped(const RadioScene& scene, const Leg& leg, double mount_de
                         std::uint32_t collision, std::uint32_t triangle) {
   return scene.is_opaque(collision) &&
          scene.rays().clearly_stops(collision, triangle,
-                                    stretch_of(leg, span_of(leg, mount_depth_m)));
+                                    segment_of(leg, span_of(leg, mount_depth_m)));
 }
 
 bool walk(const RadioScene& scene, const Leg& leg, double mount_depth_m, bool all,
@@ -110,7 +111,7 @@ bool walk(const RadioScene& scene, const Leg& leg, double mount_depth_m, bool al
   const Span span = span_of(leg, mount_depth_m);
   static const std::vector<char> none;
   const std::vector<char>& stops = all ? none : scene.opaque();
-  if (!scene.rays().surfaces(stretch_of(leg, span), stops, scratch.hits)) return false;
+  if (!scene.rays().surfaces(segment_of(leg, span), stops, scratch.hits)) return false;
   if (scratch.hits.empty()) return true;
   scratch.kept.clear();
   bool free = true;

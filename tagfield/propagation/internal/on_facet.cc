@@ -7,18 +7,19 @@
 namespace tagfield {
 namespace {
 
-/// Twice the triangle's area, so that no point between two triangles is lost to rounding.
+/// Tolerance of twice a triangle's area, so that no point between two triangles is lost to rounding
+/// [m²].
 constexpr double kRim = 1e-12;
 
 using FacetCorners = std::array<Eigen::Vector3d, 3>;
 
-/// Twice the area of the triangle `from`, `to`, `p`; below 0 if it is turned the other way.
+/// Twice the area of the triangle `from`, `to`, `p`; negative if its orientation is reversed.
 double area(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& p,
             const Eigen::Vector3d& normal) {
   return normal.dot((to - from).cross(p - from));
 }
 
-/// `normal` may point to either side: triangles of open sheets are turned as they like.
+/// `normal` may point to either side: triangles of open sheets can have any orientation.
 bool is_in(const FacetCorners& corners, const Eigen::Vector3d& normal, const Eigen::Vector3d& p) {
   const double one = area(corners[0], corners[1], p, normal);
   const double two = area(corners[1], corners[2], p, normal);

@@ -21,7 +21,7 @@ Cell cell_of(const Eigen::Vector3d& p) {
   return {std::llround(p.x() / kCell), std::llround(p.y() / kCell), std::llround(p.z() / kCell)};
 }
 
-/// For each vertex the index of the one that stands for it in `welded`.
+/// For each vertex, the index of the one that represents it in `welded`.
 std::vector<std::uint32_t> weld_vertices(const TriangleMesh& mesh, WeldedMesh& welded) {
   std::map<Cell, std::uint32_t> at;
   std::vector<std::uint32_t> one(mesh.vertices.size());
@@ -39,7 +39,8 @@ std::uint32_t root(std::vector<std::uint32_t>& parents, std::uint32_t i) {
   return i;
 }
 
-/// Twice the area and six times the volume under the triangles, seen from the first vertex.
+/// Twice the area of the triangles, and six times the signed volume between them and the first
+/// vertex.
 struct Bulk {
   double area = 0.0;
   double volume = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A solid's triangles with the vertices that share a place made one.
+/// A solid's triangles with coincident vertices merged.
 #pragma once
 
 #include <array>
@@ -13,16 +13,16 @@ namespace tagfield {
 
 inline constexpr std::uint32_t kNoTriangle = ~0U;
 
-/// Triangles without those that are no more than a line, and each only once however its corners
-/// are ordered.
+/// Triangles without those of which two corners coincide, and each only once whatever the order of
+/// its corners.
 struct WeldedMesh {
   std::vector<Eigen::Vector3d> vertices;  ///< [m]
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// By triangle of the mesh that it was made of: its index here, or kNoTriangle.
+  /// By triangle of the original mesh: its index here, or kNoTriangle.
   std::vector<std::uint32_t> kept;
 };
 
-/// Vertices within one cell of 10 µm become one, as exporters write one for each triangle.
+/// Merges vertices within one cell of 10 µm, as exporters write separate ones for each triangle.
 WeldedMesh weld(const TriangleMesh& mesh);
 
 /// A triangle's side; `forward` if it goes from `low` to `high`.
@@ -33,7 +33,7 @@ struct Edge {
   bool forward = false;
 };
 
-/// All triangles' sides by (low, high).
+/// All triangles' sides, sorted by (low, high).
 std::vector<Edge> sorted_edges(const WeldedMesh& mesh);
 
 /// Calls `body(begin, end)` for each run of edges with the same ends.
@@ -47,9 +47,9 @@ void for_each_run(const std::vector<Edge>& edges, const Body& body) {
   }
 }
 
-/// Triangles that hang together by edges.
+/// Triangles that are connected by edges.
 struct Piece {
-  /// Each edge has as many triangles to one side as to the other, and there is room inside.
+  /// Each edge has as many triangles on one side as on the other, and the piece encloses a volume.
   bool closed = false;
   bool inverted = false;  ///< Closed, with its normals pointing inwards.
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Rays and mirrors the slow way: every triangle and every facet, in double precision.
+/// Brute-force ray tests: every triangle, in double precision.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@ struct TestTriangle {
   std::size_t solid = 0;
 };
 
-/// Of all solids but planes.
+/// The triangles of all solids except planes.
 inline std::vector<TestTriangle> all_triangles(const Scene& scene) {
   std::vector<TestTriangle> triangles;
   for (std::size_t solid = 0; solid < scene.collisions.size(); ++solid) {
@@ -33,8 +33,8 @@ inline std::vector<TestTriangle> all_triangles(const Scene& scene) {
   return triangles;
 }
 
-/// Distance along a line through `origin` to the triangle, whichever side (T. Möller, B. Trumbore,
-/// Fast, minimum storage ray-triangle intersection, J. Graphics Tools 2(1), 1997).
+/// Distance along a line through `origin` to the triangle, from either side (T. Möller, B.
+/// Trumbore, Fast, minimum storage ray-triangle intersection, J. Graphics Tools 2(1), 1997).
 inline std::optional<double> moeller_trumbore(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction,
                                               const TestTriangle& triangle) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the straight way and mirrored ways go through, in closed form.
+// Crossings of direct and reflected paths, against closed forms.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -25,7 +25,7 @@ RadioScene radio_of(std::vector<Collision> collisions, bool opaque = false) {
   return RadioScene(scene, options);
 }
 
-/// A square across x at `x`, facing down x unless turned.
+/// A square perpendicular to the x axis at `x`, facing −x unless `turned`.
 Collision sheet(double x, bool turned) {
   auto mesh = std::make_shared<TriangleMesh>();
   mesh->vertices = {{0.0, -2.0, -2.0}, {0.0, 2.0, -2.0}, {0.0, 2.0, 2.0}, {0.0, -2.0, 2.0}};
@@ -51,8 +51,8 @@ RC_GTEST_PROP(Crossings, OfASlabAreItsThicknessOverTheCosine, ()) {
   RC_ASSERT(std::abs(found[0].p_W.z() - 0.5 * thickness) < 1e-9);
 }
 
-/// How much of the way from `a` to `t` is in a box along the axes, by its slabs (T. Kay, J. Kajiya,
-/// Ray tracing complex scenes, SIGGRAPH 1986); none where it runs along a face.
+/// Length of the segment from `a` to `t` inside an axis-aligned box, by the slab method (T. Kay, J.
+/// Kajiya, Ray tracing complex scenes, SIGGRAPH 1986); none if it runs along a face.
 std::optional<double> chord(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
                             const Eigen::Vector3d& a, const Eigen::Vector3d& t) {
   double from = 0.0;
@@ -72,7 +72,7 @@ std::optional<double> chord(const Eigen::Vector3d& low, const Eigen::Vector3d& h
   return std::max(0.0, to - from) * (t - a).norm();
 }
 
-/// Of ways through an edge.
+/// For paths through an edge.
 RC_GTEST_PROP(Crossings, OfBoxesByTheirEdgesAreTheirChords, ()) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
   const auto round = [&](int low, int high) {
@@ -100,7 +100,7 @@ RC_GTEST_PROP(Crossings, OfBoxesByTheirEdgesAreTheirChords, ()) {
          const Crossing& crossing : straight_crossings(radio, a, t, options)) {
       crossed += crossing.length_m;
     }
-    // A way that grazes an edge is inside within some micrometres or not at all.
+    // Whether a path that grazes an edge is inside is decided to within a few micrometres.
     RC_ASSERT(std::abs(crossed - *truth) < 1e-3);
   }
 }
@@ -172,7 +172,7 @@ TEST(Crossings, OfOneMeshJoinPartsThatTouchOrOverlap) {
 }
 
 TEST(Crossings, ThroughADiagonalAreNotCountedTwice) {
-  // The way goes through the diagonals that the triangles of both faces share.
+  // The path passes through the diagonals that the triangles of both faces share.
   const RadioScene radio = radio_of({box({1.0, 2.0, 2.0}, {3.0, 0.0, 0.0})});
   for (int i = -9; i <= 9; ++i) {
     const double y = 0.1 * i;
@@ -255,7 +255,7 @@ TEST(Crossings, OfMirroredWaysSayWhichLeg) {
   TraceOptions options;
   options.order = 1;
   std::vector<RadioPath> paths;
-  // The floor is met at x = 2, so the box is in the second leg's way.
+  // The path is reflected by the floor at x = 2, so the box is on the second leg.
   trace_paths(radio, images_of(radio, {0.0, 0.0, 2.0}, options), {4.0, 0.0, 2.0}, options, paths);
   ASSERT_EQ(paths.size(), 2U);
   EXPECT_TRUE(paths[0].crossings.empty());
@@ -263,7 +263,7 @@ TEST(Crossings, OfMirroredWaysSayWhichLeg) {
   const Crossing& crossing = paths[1].crossings[0];
   EXPECT_EQ(crossing.leg, 1);
   EXPECT_EQ(crossing.solid, 1U);
-  // In at x = 2.9, z = 0.9; out at the top, z = 1.05, would be x = 3.05: before x = 3.1.
+  // Entry at x = 2.9, z = 0.9; exit at the top, z = 1.05, at x = 3.05: before x = 3.1.
   EXPECT_NEAR(crossing.length_m, 0.15 * std::sqrt(2.0), 1e-9);
   EXPECT_NEAR(crossing.cos_incidence, std::sqrt(0.5), 1e-12);
   EXPECT_TRUE(crossing.p_W.isApprox(Eigen::Vector3d(2.9, 0.0, 0.9), 1e-12));
@@ -280,7 +280,7 @@ TEST(Crossings, UnderABoxOnTheFloorTheWayGoesThroughTheBox) {
     opaque.opaque = {1, static_cast<char>(metal)};
     const RadioScene radio(scene, opaque);
     trace_paths(radio, images_of(radio, {0.0, 0.0, 2.0}, options), {4.0, 0.0, 2.0}, options, paths);
-    // Direct, by the box' top, and by the floor beneath the box, if waves pass the box.
+    // Direct, via the top of the box and, if waves pass through it, via the floor beneath it.
     ASSERT_EQ(paths.size(), metal ? 2U : 3U);
     if (metal) continue;
     ASSERT_EQ(paths[1].bounces[0].solid, 0U);

@@ -46,7 +46,7 @@ TEST(DiffractingEdges, OfABoxAreItsTwelve) {
     EXPECT_NEAR(edge.exterior_rad, 1.5 * kPi, 1e-9);
     EXPECT_FALSE(edge.is_sheet);
     for (const WedgeFace& face : edge.faces) EXPECT_TRUE(face.mirrors);
-    // Free space is where the theory looks for it: from face 0 by the right hand to face 1.
+    // Free space is where the theory expects it: from face 0 to face 1 by the right-hand rule.
     const WedgeFace& first = edge.faces[0];
     EXPECT_NEAR((first.into_W.cross(first.normal_W) - edge.axis_W).norm(), 0.0, 1e-9);
     const double turned = -first.normal_W.dot(edge.faces[1].into_W);
@@ -57,7 +57,7 @@ TEST(DiffractingEdges, OfABoxAreItsTwelve) {
 TEST(DiffractingEdges, AreNeitherOnRoundThingsNorInCorners) {
   EXPECT_TRUE(edges_of({solid(Sphere{2.0})}).empty());
   EXPECT_TRUE(edges_of({solid(Cylinder{0.4, 2.0})}).empty());
-  // Of an L five edges go up; the one in its corner is bent inwards.
+  // Five of the vertical edges of an L count; the one in its inner corner is concave.
   TriangleMesh prism;
   const std::vector<Eigen::Vector2d> outline = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
   for (const double z : {0.0, 1.0}) {
@@ -92,15 +92,15 @@ TEST(DiffractingEdges, StandFreeOfWhatCoversThem) {
   const auto box = [](double x) {
     return solid(Box{{1.0, 1.0, 1.0}}, from_translation({x, 0.0, 0.5}));
   };
-  // On the floor: four upright ones and four on top.
+  // On the floor: four vertical ones and four on top.
   EXPECT_EQ(edges_of({floor, box(0.0)}).size(), 8U);
-  // Side by side, flush: where they meet there is none.
+  // Side by side and flush: there is no edge where they touch.
   const auto two = edges_of({floor, box(0.0), box(1.0)});
   EXPECT_NEAR(whole_length(two), 4.0 + 2.0 * (2.0 + 1.0), 1e-6);
-  // Within a room that is one box they are as free as outside.
+  // Inside a room that is one box, they are as free as outside.
   const Collision room = solid(Box{{9.0, 9.0, 9.0}});
   EXPECT_NEAR(whole_length(edges_of({room, box(0.0)})), 12.0 + 12.0 * 9.0, 1e-6);
-  // Half covered by another: what is left.
+  // Half covered by another box: the rest remains.
   const auto half =
       edges_of({box(0.0), solid(Box{{0.5, 1.0, 1.0}}, from_translation({0.25, 0, 1.5}))});
   const auto on_top = std::count_if(half.begin(), half.end(), [](const DiffractingEdge& edge) {
@@ -109,8 +109,8 @@ TEST(DiffractingEdges, StandFreeOfWhatCoversThem) {
   EXPECT_EQ(on_top, 2);
 }
 
-/// Cuts a random triangle at a random point of a side, in it and, unless it is to leave the point
-/// hanging on the next one's side, there too.
+/// Splits a triangle at a point of one side. Unless `hanging`, the adjacent triangle is split there
+/// too; otherwise the point is a T-junction.
 void cut(TriangleMesh& mesh, bool hanging, double share, std::size_t which, std::size_t side) {
   const auto triangle = mesh.triangles[which];
   const std::uint32_t a = triangle[side];
@@ -174,8 +174,8 @@ TEST(TraceDiffracted, BendsWhereTheWayIsShortest) {
   const Vector3d p_WA(-3.0, 0.2, 1.7);
   const Vector3d p_WT(2.5, 0.4, 1.6);
   trace_diffracted(waves, edges, p_WA, p_WT, {}, paths);
-  // Both see the two upper edges across the way, and the four upright ones only beside them: no
-  // shortest way over these lies within them, nor over the lower ones.
+  // At least over the two upper edges across the path, which both ends see. The shortest paths over
+  // the four vertical edges would bend above their ends, and the lower edges are hidden.
   EXPECT_GE(paths.size(), 2U);
   for (const DiffractedPath& path : paths) {
     const DiffractingEdge& edge = edges[path.edge];
@@ -207,7 +207,7 @@ TEST(TraceDiffracted, GoesNowhereThroughMetal) {
       paths.begin(), paths.end(), [&](const auto& path) { return edges[path.edge].solid == 0; });
   EXPECT_EQ(around_plate, 4);
   trace_diffracted(waves, edges, {-3, 0, 0}, {3, 0, 0}, {}, paths);
-  EXPECT_TRUE(paths.empty());  // And around the wall it takes two.
+  EXPECT_TRUE(paths.empty());  // Getting around the wall takes two edges.
   trace_diffracted(waves, edges, {-3, 0, 0}, {std::nan(""), 0, 0}, {}, paths);
   EXPECT_TRUE(paths.empty());
 }

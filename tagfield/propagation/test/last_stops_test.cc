@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths traced with what stopped them before against those traced without, to the last bit.
+// Tracing with LastStops against tracing without, bit by bit.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -38,7 +38,7 @@ struct Counts {
   std::size_t stops = 0;
 };
 
-/// Traces the tag both ways and compares.
+/// Traces the tag's paths with and without `last` and compares them.
 void expect_same(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
                  const TraceOptions& options, LastStops& last, Counts& counts) {
   const ImageSet images = images_of(scene, p_WA, options);
@@ -60,7 +60,7 @@ Eigen::Vector3d point_in(std::mt19937_64& random, double size) {
   return {x, y, within(random)};
 }
 
-/// Boxes turned every way over a floor, every other one opaque.
+/// Boxes above a floor, most of them arbitrarily rotated, every other one opaque.
 RadioScene random_scene(std::mt19937_64& random) {
   Scene scene;
   RadioSceneOptions options;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The straight way against every triangle of a world.
+// Line of sight against every triangle of a world.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,8 +23,8 @@ double to_edge(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::
   return (p - a).cross(b - a).norm() / (b - a).norm();
 }
 
-/// What the segment is to one triangle: kTooNear where it passes within kNear of its rim, or ends
-/// near its surface.
+/// Whether one triangle blocks the segment: kTooNear if the segment passes within kNear of the
+/// triangle's boundary, or ends near its surface.
 Verdict verdict_on(const TestTriangle& triangle, const Eigen::Vector3d& from,
                    const Eigen::Vector3d& to) {
   const auto& [a, b, c] = triangle.p;
@@ -38,7 +38,7 @@ Verdict verdict_on(const TestTriangle& triangle, const Eigen::Vector3d& from,
   if (hit && end < 2e-5) return Verdict::kTooNear;
   const Eigen::Vector3d p = from + t * direction;
   const double slope = std::abs(normal.dot(direction));
-  // Across the line, not along the triangle's plane.
+  // Measured perpendicular to the line, not in the triangle's plane.
   const double rim = slope * std::min({to_edge(p, a, b), to_edge(p, b, c), to_edge(p, c, a)});
   const double size = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
   if (rim < kNear && (p - (a + b + c) / 3.0).norm() < size + kNear / slope) {
@@ -98,7 +98,7 @@ void compare(const std::string& world) {
   EXPECT_LT(counts[2], 100);
 }
 
-/// By way of one triangle as a mirror, the bounce, or nothing.
+/// The reflection point on one triangle, if there is one.
 std::optional<Eigen::Vector3d> bounce_on(const TestTriangle& mirror, const Eigen::Vector3d& a,
                                          const Eigen::Vector3d& t) {
   const Eigen::Vector3d normal =
@@ -111,7 +111,7 @@ std::optional<Eigen::Vector3d> bounce_on(const TestTriangle& mirror, const Eigen
   return Eigen::Vector3d(t - direction + *part * direction);
 }
 
-/// Every bounce that all triangles let pass, each once where triangles are flush or share an edge.
+/// All unobstructed bounces, each once where triangles are flush or share an edge.
 std::vector<Eigen::Vector3d> all_bounces(const std::vector<TestTriangle>& triangles,
                                          const Eigen::Vector3d& a, const Eigen::Vector3d& t) {
   std::vector<Eigen::Vector3d> found;
@@ -126,7 +126,7 @@ std::vector<Eigen::Vector3d> all_bounces(const std::vector<TestTriangle>& triang
   return found;
 }
 
-/// All facets mirror, however small. Bounces agree to the 0.1 mm that facets are flat to.
+/// All facets reflect, however small. Bounces agree to the 0.1 mm that facets are flat to.
 void compare_bounces(const std::string& world) {
   Diagnostics diagnostics;
   Scene scene = load_world(world, {}, diagnostics);
@@ -175,7 +175,7 @@ TEST(Bounces, AreThoseOfEveryTriangleInTheSmallWarehouse) {
   compare_bounces(TAGFIELD_SOURCE_DIR "/worlds/small_warehouse.sdf");
 }
 
-/// Where the AWS warehouse should be.
+/// File of the AWS warehouse, which may not exist.
 std::string aws_world() {
   const char* named = std::getenv("TAGFIELD_AWS_WORLD");
   return named != nullptr ? named

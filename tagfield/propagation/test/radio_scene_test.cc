@@ -136,7 +136,7 @@ TEST(RadioScene, KnowsOnWhichSideAFacetHasPoints) {
   }
 }
 
-/// Also where the look up passes an edge that two triangles share.
+/// Also where the test line passes through an edge that two triangles share.
 TEST(ShellsAround, AreThoseOfTheBoxesThatAPlaceIsIn) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

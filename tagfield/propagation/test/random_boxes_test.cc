@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes anywhere against all sequences of their faces.
+// Paths among random boxes, against all sequences of their faces.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -13,10 +13,10 @@
 namespace tagfield {
 namespace {
 
-/// A box' face: |u·(p − centre)| ≤ half_u and likewise v, in its plane.
+/// A face of a box: |u·(p − centre)| ≤ half_u and the same for v, in its plane.
 struct Face {
   Eigen::Vector3d centre;
-  Eigen::Vector3d normal;  ///< Out of the box, or into it where the antenna is.
+  Eigen::Vector3d normal;  ///< Out of the box, or into it if it contains the antenna.
   Eigen::Vector3d u;
   Eigen::Vector3d v;
   double half_u = 0.0;
@@ -51,7 +51,7 @@ std::vector<Face> faces_of(const Scene& scene, const Eigen::Vector3d& antenna) {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// The way by `sequence`, from the antenna to the tag with the bounces between, or nothing.
+/// The path via `sequence`: the antenna, the bounces and the tag, or none.
 std::optional<Points> way_by(const std::vector<Face>& sequence, const Eigen::Vector3d& antenna,
                              const Eigen::Vector3d& tag) {
   Points images{antenna};
@@ -118,7 +118,7 @@ Case random_case(std::uint64_t seed, bool may_be_inside) {
   const int count = 3 + static_cast<int>(seed % 6);
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d size = Eigen::Vector3d::Constant(0.4) + (point(2.5)).cwiseAbs();
-    // Some along the axes and some turned every way.
+    // Half of them axis-aligned, the others arbitrarily rotated.
     const Eigen::Vector3d turn = i % 2 == 0 ? Eigen::Vector3d::Zero().eval() : point(3.0);
     found.scene.collisions.push_back({"box", Box{size}, from_xyz_rpy(point(3.0), turn)});
   }
@@ -159,7 +159,7 @@ bool is_same(const RadioPath& path, const Points& way) {
          (path.arrival_W - (way.back() - way[way.size() - 2]).normalized()).norm() < 1e-9;
 }
 
-/// Returns how many mirrored ways there are.
+/// Returns the number of reflected paths.
 std::size_t expect_brute_force(const Case& the, int order, bool opaque) {
   BruteForce brute{faces_of(the.scene, the.antenna), all_triangles(the.scene), opaque, {}};
   std::vector<Face> sequence;
@@ -186,7 +186,7 @@ TEST(RandomBoxes, HaveThePathsOfAllSequencesOfFaces) {
   EXPECT_GT(mirrored, 500U);
 }
 
-/// Whether `back` is `path` the other way.
+/// Whether `back` is `path` reversed.
 bool is_reverse(const RadioPath& path, const RadioPath& back) {
   if (path.bounce_count != back.bounce_count || std::abs(path.length_m - back.length_m) > 1e-9 ||
       (path.departure_W + back.arrival_W).norm() > 1e-9 ||

@@ -79,7 +79,7 @@ std::vector<Expected> lattice(const Room& room, const Eigen::Vector3d& a, const 
         if (bounces > order) continue;
         const Eigen::Vector3d way = Eigen::Vector3d(x.x, y.x, z.x) + room.low - a;
         const Eigen::Vector3d departure = way / way.norm();
-        // Each bounce turns the direction around along its axis.
+        // Each bounce reverses the direction along its axis.
         const Eigen::Vector3d turned(x.bounces % 2 ? -1.0 : 1.0, y.bounces % 2 ? -1.0 : 1.0,
                                      z.bounces % 2 ? -1.0 : 1.0);
         found.push_back({bounces, departure, departure.cwiseProduct(turned), way.norm()});
@@ -98,7 +98,8 @@ bool matches(const RadioPath& path, const Expected& expected) {
 
 double any(int low, int high) { return 1e-4 * *rc::gen::inRange(low, high); }
 
-/// A whole number of tenths of a millimetre and an odd bit, so that ways don't run along edges.
+/// A point at multiples of 1e-4 of the room's size, plus an odd offset so that paths don't run
+/// along edges.
 Eigen::Vector3d any_in(const Room& room) {
   const Eigen::Vector3d part(any(50, 9950), any(50, 9950), any(50, 9950));
   return room.low + room.size.cwiseProduct(part) + Eigen::Vector3d(1.1e-5, 2.3e-5, -1.7e-5);

@@ -64,7 +64,7 @@ TEST(TracePaths, BetweenTwoMirrorsThereAreThoseOfEachOrder) {
       {"ceiling", Plane{-Eigen::Vector3d::UnitZ(), {1.0, 1.0}}, from_translation({0.0, 0.0, 3.0})});
   const auto paths =
       paths_between(RadioScene(scene), {0.0, 0.0, 1.0}, {4.0, 0.0, 2.0}, of_order(3));
-  // The images' heights: 1 | −1, 5 | 7, −5 | −7, 11, by floor first or ceiling first.
+  // The images' heights: 1 | −1, 5 | 7, −5 | −7, 11, with the floor first or the ceiling first.
   const std::array<double, 7> heights{1.0, -1.0, 5.0, 7.0, -5.0, -7.0, 11.0};
   ASSERT_EQ(paths.size(), heights.size());
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -220,7 +220,7 @@ TEST(TracePaths, BlockedPathsAreLeftOutOrMarked) {
   const Eigen::Vector3d t(4.0, 0.0, 2.0);
   EXPECT_FALSE(is_unobstructed(radio, a, t));
   const auto free = paths_between(radio, a, t, options);
-  ASSERT_EQ(free.size(), 1U);  // By the floor.
+  ASSERT_EQ(free.size(), 1U);  // Via the floor.
   EXPECT_EQ(free[0].bounce_count, 1);
   EXPECT_FALSE(free[0].blocked);
   options.keep_blocked = true;

@@ -113,13 +113,14 @@ TEST_P(PerturbedRange, GivesTheChanceOfAReadAtEachDistance) {
     for (std::int64_t i = 0; i < kUpdates; ++i) {
       if (perturbed_range(antenna, update_stamp(antenna, i), 9) >= distance) reads += 1.0;
     }
-    // By the normal approximation; with the 27 expected at three σ its false alarm is about 2e-5.
+    // By the normal approximation; with the 27 expected at three σ, its false-alarm probability is
+    // about 2e-5.
     const double error = std::sqrt(chance * (1.0 - chance) / kUpdates);
     EXPECT_NEAR(reads / kUpdates, chance, statistics::kNormalBound * error) << distance;
   }
 }
 
-// The paper's σr, and one so wide that the absolute value matters.
+// The paper's σr, and one so large that the absolute value matters.
 INSTANTIATE_TEST_SUITE_P(Sigmas, PerturbedRange, testing::Values(0.05, 0.2, 1.0));
 
 TEST(PerturbedRangeDraw, FollowsTheFoldedNormalDistribution) {
@@ -226,7 +227,7 @@ TEST(ReadTag, PhaseNoiseIsIndependentBetweenTagsAntennasStampsAndSeeds) {
         phase_residuals(a, "tag1", 3.3, 1, 1), phase_residuals(a, "tag1", 3.3, 2)}) {
     EXPECT_LT(std::abs(statistics::correlation_deviate(base, other)), statistics::kNormalBound);
   }
-  // The same noise at another distance, or the test above could not fail.
+  // The same noise at another distance; otherwise the test above could not fail.
   EXPECT_GT(statistics::correlation_deviate(base, phase_residuals(a, "tag1", 1.1)), 100.0);
 }
 

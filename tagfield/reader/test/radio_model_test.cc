@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kCarrier_hz = 865.7e6;
 
-/// Isotropic, without anything but free space.
+/// Isotropic, with free-space propagation only.
 RadioModel plain_model() {
   RadioModel model;
   model.plan = fixed_plan(kCarrier_hz);
@@ -37,11 +37,12 @@ double free_space_db(double distance_m) {
 }
 
 TEST(MostRange, IsWhereTheChipWakesUp) {
-  // 30 dBm − L = −18 dBm; the reply of a reader that hears all would come back from further off.
+  // 30 dBm − L = −18 dBm; a reader of infinite sensitivity could receive the reply from further
+  // away.
   RadioModel model = plain_model();
   model.hardware.sensitivity_dbm = -140.0;
   EXPECT_NEAR(free_space_db(most_range_m(model, plain_tag(-18.0))), 48.0, 1e-9);
-  // Gains and losses on the way there.
+  // Gains and losses of the forward link.
   model.antenna.gain_dbi = 6.0;
   model.cable_loss_db = 1.5;
   TagModel tag = plain_tag(-18.0);
@@ -51,11 +52,11 @@ TEST(MostRange, IsWhereTheChipWakesUp) {
 }
 
 TEST(MostRange, IsWhereTheReaderStillHears) {
-  // 30 − 2 L − 5 = −60 dBm, as a chip that needs next to nothing answers further off.
+  // 30 − 2 L − 5 = −60 dBm, as a chip that needs almost no power would respond from further away.
   RadioModel model = plain_model();
   model.hardware.sensitivity_dbm = -60.0;
   EXPECT_NEAR(free_space_db(most_range_m(model, plain_tag(-90.0))), 42.5, 1e-9);
-  // Antennas and cable count twice here.
+  // Antenna gain and cable loss count twice here.
   model.antenna.gain_dbi = 6.0;
   model.cable_loss_db = 1.5;
   EXPECT_NEAR(free_space_db(most_range_m(model, plain_tag(-90.0))), 42.5 + 6.0 - 1.5, 1e-9);
@@ -73,7 +74,7 @@ TEST(MostRange, IsTwiceThatWhereOtherWavesMayAdd) {
 }
 
 TEST(TransmitSpectrum, HasTheChannelsOfItsMask) {
-  // ISO/IEC 18000-63: in dense mode channels are 2.5/Tari wide, else the regulation's.
+  // ISO/IEC 18000-63: in dense mode channels are 2.5/Tari wide, otherwise as in the regulation.
   RadioModel model = plain_model();
   model.gen2.emplace();
   model.gen2->link.tari_s = 25e-6;
@@ -99,7 +100,7 @@ TEST(MaySendAtOnce, WhereReadersDontTakeTurns) {
   EXPECT_TRUE(may_send_at_once(a, antenna("b", AirSharing::kChannel)));
   EXPECT_TRUE(may_send_at_once(a, antenna("b", AirSharing::kTime)));
   EXPECT_FALSE(may_send_at_once(antenna("a", AirSharing::kTime), antenna("b", AirSharing::kTime)));
-  // Ports of one reader take turns, and the paper's antennas know of no air to share.
+  // Ports of one reader take turns, and the paper's antennas don't share the air.
   EXPECT_FALSE(may_send_at_once(a, antenna("a", AirSharing::kChannel)));
   AntennaParameters of_paper;
   of_paper.reader = "b";

@@ -34,7 +34,7 @@ TEST(PhaseSigma, FallsWithTheSquareRootOfTheSignalDownToItsFloor) {
 }
 
 TEST(PhaseSigma, IsThatOfASignalInComplexWhiteNoise) {
-  // Phase of the mean of n complex samples 1 + w, w's variance 1/SNR: simulated.
+  // Phase of the mean of n complex samples 1 + w, where w has variance 1/SNR: simulated.
   ReaderHardware hardware;
   hardware.phase_floor_rad = 0.0;
   const double reply_dbm = noise_dbm(hardware) + 12.0;
@@ -50,13 +50,14 @@ TEST(PhaseSigma, IsThatOfASignalInComplexWhiteNoise) {
     }
     sum += std::arg(mean) * std::arg(mean);
   }
-  // Relative error of a standard deviation from so many: 0.5 %; five of those.
+  // The relative standard error of a standard deviation from this many trials is 0.5 %; five of
+  // those.
   EXPECT_NEAR(std::sqrt(sum / kTrials) / phase_sigma(hardware, reply_dbm), 1.0, 0.025);
 }
 
 TEST(DecodeProbability, IsThatOfOrthogonalSignals) {
   ReaderHardware hardware;
-  // SNR 10 dB: BER = ½ erfc(√5) = 7.827e-4; 144 bits come through with 0.8934.
+  // SNR 10 dB: BER = ½ erfc(√5) = 7.827e-4; 144 bits are decoded with probability 0.8934.
   EXPECT_NEAR(decode_probability(hardware, noise_dbm(hardware) + 10.0, 144), 0.8934, 1e-4);
   EXPECT_NEAR(decode_probability(hardware, noise_dbm(hardware) + 30.0, 144), 1.0, 1e-12);
   EXPECT_LT(decode_probability(hardware, noise_dbm(hardware) - 20.0, 144), 1e-30);
@@ -77,7 +78,7 @@ TEST(Measure, QuantizesInTheReadersSteps) {
   EXPECT_NEAR(measured.phase_rad / step, std::round(1.0 / step), 1e-9);
   EXPECT_EQ(measured.rssi_dbm, -55.5);
   EXPECT_EQ(measured.doppler_hz, 2.6875);
-  // A turn less than half a step rounds up to a whole turn, which is none.
+  // Less than half a step below a full turn, the phase rounds up to a full turn, which is 0.
   EXPECT_EQ(measure({}, {false, true, false}, {kTwoPi - 0.1 * step, 0, 0}, noise).phase_rad, 0.0);
 }
 
@@ -98,7 +99,7 @@ TEST(Measure, NoiseIsNormalWithTheSigmaOfTheSignal) {
     const double share = (static_cast<double>(i) + 0.5) / kReads;
     worst = std::max(worst, std::abs(0.5 * std::erfc(-errors[i] / std::sqrt(2.0)) - share));
   }
-  // Kolmogorov and Smirnov at 1e-6: √(ln(2/1e-6)/2n).
+  // Kolmogorov-Smirnov at 1e-6: √(ln(2/1e-6)/2n).
   EXPECT_LT(worst, std::sqrt(std::log(2e6) / (2.0 * kReads)));
 }
 
@@ -157,7 +158,7 @@ TEST(RequiredSinr, LetsHalfOfAllRepliesThrough) {
   const double noise = noise_dbm(hardware);
   for (const int bits : {2, 16, 144, 1000}) {
     const double reply_dbm = noise + required_sinr_db(bits) + 7.0;
-    // Noise and interference together are 7 dB over the noise.
+    // Noise plus interference is 7 dB above the noise.
     const double interference_mw = (from_db(7.0) - 1.0) * from_db(noise);
     EXPECT_NEAR(decode_probability(hardware, reply_dbm, bits, interference_mw), 0.5, 1e-6) << bits;
   }
@@ -166,9 +167,9 @@ TEST(RequiredSinr, LetsHalfOfAllRepliesThrough) {
 }
 
 TEST(Measure, AmplitudeAndDopplerScatterAsTheSignalsNoiseSays) {
-  // Of a signal A + n with σ_n/A = σ along it: RSSI scatters by σ · 20/ln 10 dB about the truth.
-  // Doppler is the phase's step between halves of a reply, each with √2 σ, T/2 apart: √2 · √2 σ /
-  // (2π T/2) = 2σ/(πT).
+  // For a signal A + n with σ_n/A = σ along it, the RSSI has a standard deviation of σ · 20/ln 10
+  // dB about the truth. Doppler is the phase difference between halves of a reply, each with √2 σ,
+  // T/2 apart: √2 · √2 σ / (2π T/2) = 2σ/(πT).
   ReaderHardware hardware;
   hardware.phase_floor_rad = 0.0;
   const double sigma = 0.02;
@@ -188,7 +189,7 @@ TEST(Measure, AmplitudeAndDopplerScatterAsTheSignalsNoiseSays) {
     doppler_squares += std::pow(read.doppler_hz - 3.0, 2) / kReads;
   }
   const double of_rssi = sigma * 20.0 / std::log(10.0);
-  // Five standard deviations: of a mean σ/√n, of a standard deviation σ/√2n.
+  // Five standard errors: of a mean σ/√n, of a standard deviation σ/√2n.
   EXPECT_NEAR(rssi, 0.0, 5.0 * of_rssi / std::sqrt(1.0 * kReads) + of_rssi * sigma);
   EXPECT_NEAR(std::sqrt(rssi_squares) / of_rssi, 1.0, 5.0 / std::sqrt(2.0 * kReads) + sigma);
   const double of_doppler = 2.0 * sigma / (kPi * hardware.reply_s);

@@ -17,7 +17,7 @@ LinkSettings link_of(Encoding encoding, double blf_hz) {
   return link;
 }
 
-/// Density in small steps, over both bands.
+/// Density integrated in small steps, over both bands.
 double summed_up(const TransmitSpectrum& spectrum, double offset_hz, const LinkSettings& link,
                  double bandwidth_hz) {
   const double half = link.blf_hz / static_cast<int>(link.encoding);
@@ -61,10 +61,10 @@ TEST(ShareInReplies, IsFarLessOfMillerThanOfFm0OnTheSameCarrier) {
   const auto share_db = [&](Encoding encoding) {
     return to_db(share_in_replies(spectrum, 0.0, link_of(encoding, 250e3), 250e3));
   };
-  // FM0's band goes down to the carrier: half of the own channel lies in each of its two bands of
-  // 500 kHz, and a reader of 250 kHz takes in a quarter of that power.
+  // FM0's band extends to the carrier: half of the own channel lies in each of its two bands of 500
+  // kHz, and a receiver of 250 kHz bandwidth receives a quarter of that power.
   EXPECT_NEAR(share_db(Encoding::kFm0), -6.02, 0.02);
-  // Miller 4's, 187.5 to 312.5 kHz, lie half in the mask's second, half in its third channel.
+  // Miller 4's band, 187.5 to 312.5 kHz, lies half in the mask's second, half in its third channel.
   EXPECT_NEAR(share_db(Encoding::kMiller4), to_db(2.0 * (0.625e-6 + 0.625 * from_db(-65.0))), 0.02);
 }
 

@@ -11,8 +11,8 @@
 namespace tagfield {
 namespace {
 
-/// viridis (S. van der Walt and N. Smith, 2015), a tenth apart, from its second tenth on: what is
-/// before is too dark on near-black.
+/// viridis (S. van der Walt and N. Smith, 2015), in steps of a tenth, from its second tenth on; the
+/// colours before are too dark on near-black.
 constexpr std::array<Rgb, 9> kStops = {
     Rgb{0.255, 0.267, 0.529}, Rgb{0.208, 0.373, 0.553}, Rgb{0.165, 0.471, 0.557},
     Rgb{0.129, 0.569, 0.549}, Rgb{0.133, 0.659, 0.518}, Rgb{0.267, 0.749, 0.439},

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// No row of a read is shorter [bytes].
+/// Minimum length of a read's row [bytes].
 constexpr std::size_t kLeastRow = 12;
 
 /// A read's row in the table, and its stamp.
@@ -27,7 +27,7 @@ struct Ends {
   StampedRow first, last;
 };
 
-/// What the first look at a table finds.
+/// The results of the first pass over a table.
 struct Contents {
   std::map<std::string, std::unordered_map<std::string, std::size_t>> counts;  ///< Antenna, tag.
   std::unordered_map<std::string, Ends> ends;                                  ///< By tag.
@@ -41,7 +41,7 @@ void add(const TagRead& read, std::size_t row, Contents& contents) {
   if (here.stamp >= ends.last.stamp) ends.last = here;
 }
 
-/// By antenna, the tag that it reads most often; the first in natural order among equals.
+/// By antenna, the tag that it reads most often; ties go to the first in natural order.
 std::map<std::string, std::string> busiest_tags(const Contents& contents) {
   std::map<std::string, std::string> tags;
   for (const auto& [antenna, counts] : contents.counts) {
@@ -57,7 +57,7 @@ std::map<std::string, std::string> busiest_tags(const Contents& contents) {
   return tags;
 }
 
-/// Chooses as the table is read once more.
+/// Selects reads in the second pass over the table.
 class Choice {
  public:
   Choice(const Contents& contents, std::size_t rows, std::size_t most)
@@ -92,7 +92,7 @@ class Choice {
 
 DrawnReads read_drawn(const std::string& path, std::size_t most) {
   DrawnReads drawn;
-  std::error_code unknown;  // Of what is no file; then rows are counted.
+  std::error_code unknown;  // If it is not a regular file, rows are counted.
   if (std::filesystem::file_size(path, unknown) <= most * kLeastRow && !unknown) {
     drawn.reads = read_reads_csv(path);
     drawn.of = drawn.reads.size();

@@ -14,13 +14,13 @@ namespace tagfield {
 struct TagRow {
   std::string tag;
   std::vector<const TagOutcome*> outcomes;  ///< By seed.
-  std::vector<double> errors_m;             ///< Of those that have one, rising.
+  std::vector<double> errors_m;             ///< Of those that have one, ascending.
 };
 
-/// A row a tag, in natural order.
+/// One row per tag, in natural order.
 std::vector<TagRow> rows_by_tag(const Summary& summary);
 
-/// How the tags came out, in two or three words, where there is no error to show.
+/// The outcome of a tag in two or three words, for when there is no error to show.
 std::string outcome_words(const TagOutcome& outcome);
 
 }  // namespace tagfield

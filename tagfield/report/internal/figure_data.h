@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a figure shows as CSV, to be saved from the page.
+/// The data of a figure as CSV, which can be saved from the page.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 
 namespace tagfield {
 
-/// Seven digits; "" of what is not finite.
+/// The value with seven digits; "" if it is not finite.
 inline std::string data_cell(double value) {
   return std::isfinite(value) ? fmt::format("{:.7g}", value) : "";
 }

@@ -14,21 +14,22 @@ namespace tagfield {
 /// One tag at the fixed antenna.
 struct TagStrength {
   std::string tag;
-  std::vector<double> rssi_dbm;         ///< In the order of time; never empty.
+  std::vector<double> rssi_dbm;         ///< In chronological order; never empty.
   double mean_dbm = 0.0;                ///< Mean of the dBm values.
-  std::optional<Eigen::Vector3d> p_WT;  ///< True, else estimated.
+  std::optional<Eigen::Vector3d> p_WT;  ///< True position, or else the estimate.
 };
 
 /// All values of all tags together.
 std::vector<double> all_values(const std::vector<TagStrength>& strengths);
 
-/// In natural order of the tags.
+/// The tags at the antenna of `track`, in natural order.
 std::vector<TagStrength> strengths_at(const RunFiles& run, const AntennaTrack& track);
 
-/// Least and greatest of all values [dBm]; `strengths` must not be empty.
+/// Minimum and maximum of all values [dBm]; `strengths` must not be empty.
 std::pair<double, double> range_of(const std::vector<TagStrength>& strengths);
 
-/// The fixed antenna with the most reads, if it has any; else why not, in `missing`.
+/// The fixed antenna with the most reads; null if there is none with reads, with the reason in
+/// `missing`.
 const AntennaTrack* fixed_track(const RunFiles& run, std::string& missing);
 
 }  // namespace tagfield

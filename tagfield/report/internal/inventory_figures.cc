@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNamesWidth = 150.0;
 
-/// By reader, in the order of the readers, each with its antennas in theirs.
+/// Antennas grouped by reader, both in their own order.
 std::vector<const InventoryShare*> by_reader(const InventorySummary& inventory) {
   std::vector<const InventoryShare*> rows;
   for (const InventoryShare& reader : inventory.readers) {

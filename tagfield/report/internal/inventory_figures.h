@@ -7,10 +7,10 @@
 
 namespace tagfield {
 
-/// Share of the tags that were read by each moment.
+/// Share of the tags that had been read by each time.
 Figure inventory_curve_figure(const RunFiles& run);
 
-/// Tags that each antenna read, and those that no other did, grouped by reader.
+/// Number of tags that each antenna read, and that it alone read, grouped by reader.
 Figure inventory_antennas_figure(const RunFiles& run);
 
 }  // namespace tagfield

@@ -18,7 +18,7 @@ std::string tally(double number) {
   return fmt::format("{:.1f}", number);
 }
 
-/// Never 100 % where one is missing, nor 0 % where one is there.
+/// Never 100 % if any is missing, nor 0 % if there is any.
 std::string percent_of(double part, double all) {
   if (all <= 0.0) return "–";
   const double share = part / all;

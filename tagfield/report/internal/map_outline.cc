@@ -10,10 +10,11 @@
 namespace tagfield {
 namespace {
 
-/// The borders between what belongs and what does not, each walked with the former at its left.
+/// The borders between cells that belong and cells that don't, each traversed with the former on
+/// its left.
 struct Borders {
-  int width = 0;  ///< Corners along x.
-  /// At each corner a bit for each direction in which a border leaves it.
+  int width = 0;  ///< Number of corners along x.
+  /// For each corner, one bit per direction in which a border leaves it.
   std::vector<std::uint8_t> leaving;
 
   [[nodiscard]] std::uint8_t& at(const Eigen::Vector2i& corner) {
@@ -25,7 +26,7 @@ struct Borders {
 /// Right, up, left, down.
 const std::array<Eigen::Vector2i, 4> kDirections = {Eigen::Vector2i(1, 0), Eigen::Vector2i(0, 1),
                                                     Eigen::Vector2i(-1, 0), Eigen::Vector2i(0, -1)};
-/// Where the border of a cell that is walked in that direction begins.
+/// Corner of a cell at which its border in each direction begins.
 const std::array<Eigen::Vector2i, 4> kCorners = {Eigen::Vector2i(0, 0), Eigen::Vector2i(1, 0),
                                                  Eigen::Vector2i(1, 1), Eigen::Vector2i(0, 1)};
 
@@ -47,7 +48,7 @@ Borders borders_of(const OccupancyGrid& grid, const std::function<bool(std::int8
   return borders;
 }
 
-/// Takes a border away that leaves the corner; its direction.
+/// Removes a border that leaves the corner and returns its direction.
 std::size_t take_border(std::uint8_t& leaving) {
   std::size_t direction = 0;
   while ((leaving & (1U << direction)) == 0) ++direction;
@@ -61,7 +62,8 @@ void append_run(std::string& data, std::size_t direction, int length) {
   data += fmt::format("{}{}", along_x ? 'h' : 'v', direction < 2 ? length : -length);
 }
 
-/// Walks from a corner till it is back; as many borders come to each corner as leave it.
+/// Follows borders from a corner until back at it; each corner has as many incoming as outgoing
+/// borders.
 void append_ring(std::string& data, Borders& borders, Eigen::Vector2i corner) {
   data += fmt::format("M{},{}", corner.x(), corner.y());
   std::size_t direction = 0;

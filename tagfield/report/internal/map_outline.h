@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Maps of cells as the outlines of what they hold, which a drawing carries lightly.
+/// Grid maps as outlines of regions, which keep a drawing small.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,14 @@
 
 namespace tagfield {
 
-/// Outline of all cells that belong, as SVG path data for fill-rule evenodd, in cells: x as the
-/// map's x, y as its y (upwards), (0, 0) the outer corner of cell (0, 0). "" where none does.
+/// Outline of all cells for which `belongs` is true, as SVG path data for fill-rule evenodd, in
+/// units of cells: x and y are those of the map (y upwards), (0, 0) is the outer corner of cell (0,
+/// 0). "" if there are no such cells.
 std::string cell_outline(const OccupancyGrid& grid,
                          const std::function<bool(std::int8_t)>& belongs);
 
-/// `step`×`step` cells as one, 1 ≤ step: occupied (100) where any is, else free (0) where any is,
-/// else unknown (-1).
+/// The grid with `step`×`step` cells merged into one, 1 ≤ step: occupied (100) if any is, else free
+/// (0) if any is, else unknown (-1).
 OccupancyGrid coarsened(const OccupancyGrid& grid, int step);
 
 }  // namespace tagfield

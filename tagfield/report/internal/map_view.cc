@@ -16,7 +16,7 @@ constexpr double kRight = 14.0;
 constexpr double kTitleRoom = 30.0;
 constexpr double kGreatestHeight = 600.0;
 constexpr double kLeastAspect = 0.4;
-constexpr double kSeen = 0.7;  ///< Shorter steps of an outline or a path can't be seen.
+constexpr double kSeen = 0.7;  ///< Shorter steps of an outline or a path are not visible.
 constexpr double kArrowDistance = 120.0;
 
 Extent extent_of(const std::vector<Silhouette>& geometry) {
@@ -34,7 +34,7 @@ Extent grown(const Extent& box, double margin) {
           box.max() + Eigen::Vector2d::Constant(margin)};
 }
 
-/// The content with a rim, and the geometry near it.
+/// The content with a margin, and the geometry near it.
 Extent shown_extent(const Extent& content, const std::vector<Silhouette>& geometry) {
   const double size = std::max(content.sizes().maxCoeff(), 1.0);
   const Extent least = grown(content, 0.05 * size);
@@ -44,7 +44,7 @@ Extent shown_extent(const Extent& content, const std::vector<Silhouette>& geomet
   return near.isEmpty() ? least : least.merged(near);
 }
 
-/// Not so flat or narrow that nothing fits in it.
+/// `box`, extended to a minimum aspect ratio.
 Extent shaped(Extent box) {
   const Eigen::Vector2d size = box.sizes();
   const Eigen::Vector2d least(kLeastAspect * size.y(), kLeastAspect * size.x());
@@ -109,7 +109,7 @@ void avoid_path(MapView& map, const std::vector<Place>& places) {
   }
 }
 
-/// Room of a label whose text begins, is centred, or ends at `place`.
+/// Bounding box of a label whose text begins, is centred, or ends at `place`.
 Extent label_box(const Place& place, const std::string& text, Anchor anchor) {
   const double width = text_width(text);
   const double shift = anchor == Anchor::kStart ? 0.0 : anchor == Anchor::kEnd ? width : width / 2;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kUnknown = "–";
 
-/// Lengths in millimetres, places in metres; a true minus sign.
+/// A number with a typographic minus sign.
 std::string number(double value, int decimals) {
   const std::string digits = fmt::format("{:.{}f}", value, decimals);
   return digits.front() == '-' ? fmt::format("−{}", digits.substr(1)) : digits;
@@ -104,7 +104,7 @@ constexpr const char* kSeveralHead =
     "<th scope=\"col\">Least<br>[mm]</th><th scope=\"col\">Mean expected<br>error [mm]</th>"
     "<th scope=\"col\">Mean<br>reads</th></tr></thead>\n<tbody>\n";
 
-/// Of the located ones; none of a reference tag.
+/// Mean over the located outcomes; none for a reference tag.
 std::optional<double> mean_expected_error(const TagRow& row) {
   double sum = 0.0;
   std::size_t located = 0;

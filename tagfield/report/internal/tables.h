@@ -11,19 +11,18 @@ namespace tagfield {
 
 inline constexpr std::size_t kMostTableRows = 500;
 
-/// A row a tag: one seed with its estimate, several with the statistics of their errors. Only the
-/// first `kMostTableRows` tags, with a word on the others.
+/// One row per tag: for one seed with its estimate, for several with the statistics of their
+/// errors. Only the first `kMostTableRows` tags, with a note on the others.
 std::string tag_table(const Summary& summary);
 
-/// How robots found their way, with its heading; "" where they did not have to.
+/// Results of robot navigation, with a heading; "" if there was none.
 std::string navigation_table(const Summary& summary);
 
-/// What each compared method makes of the same reads, with its heading; "" where none were
+/// The results of each compared method for the same reads, with a heading; "" if none were
 /// compared.
 std::string methods_table(const Summary& summary);
 
-/// Which effect of the physical models costs how much, with its heading; "" where that was not
-/// asked.
+/// How much each effect of the physical models costs, with a heading; "" if that was not requested.
 std::string effects_table(const Summary& summary);
 
 }  // namespace tagfield

@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-/// Round step that cuts `range` > 0 into about `count`.
+/// Round step that divides `range` > 0 into about `count` parts.
 double round_step(double range, int count) {
   const double rough = range / std::max(count, 1);
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -19,7 +19,7 @@ double round_step(double range, int count) {
   return (lead < 7.5 ? 5.0 : 10.0) * power;
 }
 
-/// A range that has a width also where it is a point.
+/// Width of a range, greater than 0 even if it is a point.
 double width_of(double low, double high) {
   return std::max(high - low, 1e-9 * std::max({std::abs(low), std::abs(high), 1.0}));
 }

@@ -8,20 +8,20 @@
 
 namespace tagfield {
 
-/// Multiples of 1, 2 or 5 times a power of ten from at or below `low` to at or above `high`,
-/// rising, at least two of them and about `count` (never over twice that).
+/// Multiples of 1, 2 or 5 times a power of ten that cover `low` … `high`, in ascending order: at
+/// least two and about `count` (never more than twice that).
 std::vector<double> covering_ticks(double low, double high, int count);
 
-/// The same, but only those in [low, high].
+/// Same, but only those in [low, high].
 std::vector<double> inner_ticks(double low, double high, int count);
 
-/// 1, 2 and 5 times powers of ten (powers only, where the range is wide) in [low, high], 0 < low.
+/// 1, 2 and 5 times powers of ten (powers only, if the range is wide) in [low, high], 0 < low.
 std::vector<double> logarithmic_ticks(double low, double high);
 
-/// Each with the decimals that tell it from its neighbours, and a true minus sign.
+/// Labels with the decimals needed to distinguish neighbours, and a typographic minus sign.
 std::vector<std::string> tick_labels(const std::vector<double>& ticks);
 
-/// Each with just the decimals that it has: "0.5", "20".
+/// Labels without trailing zeros: "0.5", "20".
 std::vector<std::string> logarithmic_labels(const std::vector<double>& ticks);
 
 }  // namespace tagfield

@@ -27,7 +27,7 @@ TEST(Alignment, FindsAKnownMotion) {
 }
 
 TEST(Alignment, HasNoScale) {
-  // Twice as large about the mean: nothing to turn or shift, so half of each distance stays.
+  // Twice as large about the mean: nothing to rotate or shift, so half of each distance remains.
   const std::vector<Eigen::Vector2d> small = {{-1, 0}, {1, 0}, {0, 1}, {0, -1}};
   std::vector<Eigen::Vector2d> large;
   for (const Eigen::Vector2d& p : small) large.emplace_back(2.0 * p);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Whether every tag of a markup is closed in its turn.
+/// Whether all tags of a markup are properly nested and closed.
 #pragma once
 
 #include <set>
@@ -9,8 +9,8 @@
 
 namespace tagfield {
 
-/// The first tag that is not closed or was never opened; "" where all is well. Knows HTML's
-/// elements without an end.
+/// The first tag that is not closed or was never opened; "" if there is none. Knows HTML's void
+/// elements.
 inline std::string unbalanced_tag(const std::string& markup) {
   static const std::set<std::string> without_end = {"meta", "br", "wbr", "!DOCTYPE", "?xml"};
   std::vector<std::string> open;
@@ -24,7 +24,7 @@ inline std::string unbalanced_tag(const std::string& markup) {
       open.pop_back();
     } else if (tag.back() != '/' && without_end.count(name) == 0) {
       open.push_back(name);
-      // What a script holds is no markup.
+      // The content of a script is not markup.
       if (name == "script") at = markup.find("</script>", end) - 1;
     }
   }

@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// A tag at (x, 0, 0), located `error_m` beside that; none for not located.
+/// A tag at (x, 0, 0), located with `error_m`; none for not located.
 TagOutcome located(const std::string& tag, double x, std::optional<double> error_m,
                    std::uint64_t seed = 1) {
   TagOutcome outcome;
@@ -128,7 +128,7 @@ TEST(RunComparison, IsJsonAndTable) {
 }
 
 TEST(ComparisonPage, HoldsAllAndNothingBreaksOut) {
-  // Few tags are rows, many a cloud of dots.
+  // A few tags are drawn as rows, many as a cloud of dots.
   for (const int count : {3, 60}) {
     std::vector<TagOutcome> one;
     std::vector<TagOutcome> other;

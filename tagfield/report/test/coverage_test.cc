@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-/// Two cells: one read, one that nothing arrives at.
+/// Two cells: one read, one where no signal arrives.
 Coverage two_cells() {
   Coverage coverage;
   coverage.scenario = "a <hall>";

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// Two antennas: "moving" reads tag 7 in every second row, others seldom; "fixed" reads tag 3.
+/// Two antennas: "moving" reads tag 7 in every second row, others rarely; "fixed" reads tag 3.
 std::vector<TagRead> many_reads(int count) {
   std::vector<TagRead> reads;
   for (int i = 0; i < count; ++i) {
@@ -50,7 +50,7 @@ TEST(DrawnReads, AreTheBusiestTagsAllTagsEndsAndAShareOfTheOthers) {
   const std::string file = folder_of_test().with("reads.csv", reads_to_csv(reads));
   const std::size_t most = 29'999;
   const std::size_t of_7 = count_of(reads, "moving", "7");
-  ASSERT_GT(of_7, most / 2);  // With those of the fixed one they are too many to be kept whole.
+  ASSERT_GT(of_7, most / 2);  // Too many to keep together with the fixed one's.
   const DrawnReads drawn = read_drawn(file, most);
   EXPECT_EQ(drawn.of, 30'000U);
   EXPECT_LE(drawn.reads.size(), most);

@@ -103,8 +103,8 @@ TEST(Hologram, IsBrightestWhereThePhasesComeFrom) {
   FolderPlan plan;
   plan.carriers_hz = {865.7e6, 866.3e6, 866.9e6};
   const Made made = make(plan);
-  // By the data that the page offers: the cells about the true place, at the middle, which all
-  // phases of the made run agree with, whatever each carrier's offset.
+  // From the data on the page: the cells around the true position, at the centre, agree with all
+  // phases of the generated run, whatever each carrier's offset.
   std::istringstream rows(find(made, "hologram").data);
   std::string row;
   std::getline(rows, row);
@@ -123,7 +123,7 @@ TEST(Hologram, IsBrightestWhereThePhasesComeFrom) {
     at = {cell[0], cell[1]};
   }
   ASSERT_EQ(count, 64 * 64);
-  // The true place is the window's middle, a corner of cells of 2 cm.
+  // The true position is the window's centre, a corner of cells of 2 cm.
   EXPECT_LT((at - sum / count).norm(), 0.05);
   EXPECT_GT(most, 0.9);
 }
@@ -198,7 +198,7 @@ TEST(ErrorFigure, OfManyTagsIsAHistogram) {
   FolderPlan plan;
   plan.tags = many_tags(60);
   const Figure figure = find(make(plan), "fig10_errors");
-  EXPECT_EQ(count_of(figure.svg.body, "class=\"bar\""), 1U);  // All are off by 10 mm.
+  EXPECT_EQ(count_of(figure.svg.body, "class=\"bar\""), 1U);  // All errors are 10 mm.
   EXPECT_NE(figure.svg.body.find("60 errors"), std::string::npos);
 }
 

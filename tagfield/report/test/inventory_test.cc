@@ -32,7 +32,7 @@ TEST(Inventory, OfSeveralRunsIsTheirMean) {
   EXPECT_DOUBLE_EQ(mean.zones[0].cross[0].reads, 3.0);
   EXPECT_DOUBLE_EQ(mean.levels[1].read, 5.5);
   EXPECT_NEAR(*mean.reached[0].time_s, 0.6, 1e-12);
-  // What one run did not reach has no mean time.
+  // A share that one run did not reach has no mean time.
   EXPECT_FALSE(mean_of({run_of(6.0, 0.4), run_of(4.0, std::nullopt)}).reached[0].time_s);
 }
 

@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-/// From rows as seen, the topmost first: '#' occupied, '.' free, '?' unknown.
+/// A grid from rows, topmost first: '#' occupied, '.' free, '?' unknown.
 OccupancyGrid grid_of(const std::vector<std::string>& rows) {
   OccupancyGrid grid;
   grid.width = static_cast<int>(rows.front().size());
@@ -27,7 +27,7 @@ struct Upright {
   int high = 0;
 };
 
-/// The upright lines of path data made of M, h, v and z.
+/// The vertical lines of path data consisting of M, h, v and z.
 std::vector<Upright> uprights_of(const std::string& data) {
   std::vector<Upright> lines;
   std::istringstream stream(data);
@@ -46,7 +46,7 @@ std::vector<Upright> uprights_of(const std::string& data) {
   return lines;
 }
 
-/// Whether the cell is inside by the rule of even and odd.
+/// Whether the cell is inside by the even-odd rule.
 bool is_filled(const std::vector<Upright>& lines, int x, int y) {
   int crossed = 0;
   for (const Upright& line : lines) crossed += line.x <= x && line.low <= y && y < line.high;

@@ -15,7 +15,7 @@ namespace {
 const std::vector<Eigen::Vector3d> kPlaces = {
     {4.58, -6.4, 1.25}, {4.58, 3.4, 1.75}, {-4.58, 0.0, 1.25}, {1.0, 2.0, 0.5}};
 
-/// Each tag of a seed estimated where `estimate` puts it.
+/// Outcomes of a seed, with each tag's estimate computed by `estimate`.
 template <typename Estimate>
 std::vector<TagOutcome> outcomes_of(std::uint64_t seed, Estimate estimate) {
   std::vector<TagOutcome> outcomes;
@@ -30,7 +30,7 @@ std::vector<TagOutcome> outcomes_of(std::uint64_t seed, Estimate estimate) {
   return outcomes;
 }
 
-/// Turned by `yaw` and shifted, as by a pose that is off as a whole.
+/// Rotated by `yaw` and shifted, as by a global pose error.
 auto moved(double yaw, double x, double y) {
   return [=](const Eigen::Vector3d& p) {
     return Eigen::Vector3d(std::cos(yaw) * p.x() - std::sin(yaw) * p.y() + x,

@@ -36,7 +36,7 @@ Summary navigated_summary() {
   return summary;
 }
 
-/// 4 m × 2 m from (-1, -1) on: free, but for a column of walls and one unknown cell.
+/// 4 m × 2 m from (-1, -1) on: free, except for a column of walls and one unknown cell.
 OccupancyGrid small_map() {
   OccupancyGrid grid;
   grid.resolution_m = 0.5;
@@ -57,7 +57,7 @@ std::string way_csv(double aside_m) {
   return poses_to_csv(poses);
 }
 
-/// A run whose robot mapped 20 mm beside its true path.
+/// A run whose believed mapping path is offset by 20 mm from the true one.
 void put_navigation(const RunFolder& folder) {
   folder.put("summary.json", to_json(navigated_summary()));
   folder.put("map.yaml", map_to_yaml(small_map(), "map.pgm"));
@@ -66,7 +66,7 @@ void put_navigation(const RunFolder& folder) {
   folder.put("truth/mapping_path.csv", way_csv(0.0));
 }
 
-/// The moving antenna is believed 30 mm aside and turned by 2°, since `from_s` on.
+/// From `from_s` on, the moving antenna's believed pose is off by 30 mm and 2°.
 void put_believed_poses(const RunFolder& folder, double from_s) {
   std::vector<AntennaPose> poses = read_poses_csv(folder.path() + "/antenna_poses.csv");
   for (AntennaPose& pose : poses) {
@@ -82,7 +82,7 @@ TEST(RobotMapFigure, ShowsCellsAndWays) {
   put_navigation(folder);
   const Figure figure = robot_map_figure(read_run_files(folder.path()));
   EXPECT_EQ(figure.missing, "");
-  // The wall in cells: a column at x 7 to 8; the free rest lacks the cell (0, 0).
+  // The wall in cells: a column from x = 7 to 8; the free rest lacks the cell (0, 0).
   EXPECT_TRUE(holds(figure.svg.body, "d=\"M7,0h1v4h-1v-4z\" class=\"map-occupied\""));
   EXPECT_TRUE(holds(figure.svg.body, "d=\"M1,0h6v4h-7v-3h1v-1z\" class=\"map-free\""))
       << figure.svg.body;

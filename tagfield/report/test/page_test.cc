@@ -63,11 +63,11 @@ TEST(WriteReport, GivesTheSameBytes) { EXPECT_EQ(page_of({}), page_of({})); }
 TEST(WriteReport, AsksForNothing) {
   const std::string page = page_of({});
   EXPECT_TRUE(holds(page, "default-src 'none'"));
-  EXPECT_EQ(scripts_in(page), 3U);  // Of tables, of figures, and of what links them.
+  EXPECT_EQ(scripts_in(page), 3U);  // For tables, for figures, and for the links between them.
   for (const std::string alien : {"<link", "<img", "src=", "http://", "https://"}) {
     EXPECT_FALSE(holds(page, alien)) << alien;
   }
-  // Links save what the page itself holds.
+  // Links save data embedded in the page.
   for (std::size_t at = page.find("href="); at != std::string::npos;
        at = page.find("href=", at + 1)) {
     EXPECT_EQ(page.substr(at, 20), "href=\"data:text/csv;");

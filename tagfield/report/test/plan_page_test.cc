@@ -57,7 +57,7 @@ TEST(AntennaPlan, IsTables) {
             "antennas,readers,cost,score,share,bound,read_mean,read_low,read_high,cross_worst\n"
             "1,0,0,0.500000,0.500000,1.000000,5.00,4.00,5.00,0.10000\n"
             "2,0,0,1.000000,1.000000,1.000000,10.00,8.00,10.00,0.10000\n");
-  EXPECT_EQ(plan_places_to_csv(plan).substr(0, 33), "group,zone,x_m,y_m,z_m,p_1,p_2\nsh");
+  EXPECT_EQ(plan_positions_to_csv(plan).substr(0, 33), "group,zone,x_m,y_m,z_m,p_1,p_2\nsh");
   EXPECT_NE(plan_antennas_to_csv(plan).find("2,\"m, 1\",\"m, 1\",reader_1,"), std::string::npos);
   const auto json = nlohmann::json::parse(plan_to_json(plan));
   EXPECT_EQ(json["chosen_antennas"], 2);
@@ -74,7 +74,7 @@ TEST(AntennaPlan, HoldsBoundsOnPlaces) {
   plan.aim.is_for_least_cost = true;
   plan.layouts[0].errors_m = {std::numeric_limits<double>::infinity(), 0.31};
   plan.layouts[1].errors_m = {0.12, 0.11};
-  const std::string table = plan_places_to_csv(plan);
+  const std::string table = plan_positions_to_csv(plan);
   EXPECT_EQ(table.substr(0, table.find('\n')),
             "group,zone,x_m,y_m,z_m,p_1,p_2,error_m_1,error_m_2");
   EXPECT_NE(table.find("0.5000,1.0000,,0.1200\n"), std::string::npos) << table;

@@ -51,7 +51,7 @@ TEST(ReadRunFiles, DoesWithoutTruthAndTopView) {
   const RunFolder folder(plan);
   const RunFiles run = read_run_files(folder.path());
   EXPECT_TRUE(run.top_view.empty());
-  EXPECT_TRUE(run.true_places.empty());
+  EXPECT_TRUE(run.true_positions.empty());
   EXPECT_TRUE(run.tracks.front().truth.empty());
 }
 
@@ -81,10 +81,10 @@ TEST(TruePlace, HoldsFromItsStampOn) {
   const RunFolder folder(FolderPlan{});
   folder.put("truth/tags.csv", "stamp_s,tag,x_m,y_m,z_m\n5,t,2,0,0\n1,t,1,0,0\n");
   const RunFiles run = read_run_files(folder.path());
-  EXPECT_FALSE(true_place(run, "t", time_from_seconds(0.5)));
-  EXPECT_DOUBLE_EQ(true_place(run, "t", time_from_seconds(1.0))->x(), 1.0);
-  EXPECT_DOUBLE_EQ(true_place(run, "t", time_from_seconds(9.0))->x(), 2.0);
-  EXPECT_FALSE(true_place(run, "u", time_from_seconds(9.0)));
+  EXPECT_FALSE(true_position(run, "t", time_from_seconds(0.5)));
+  EXPECT_DOUBLE_EQ(true_position(run, "t", time_from_seconds(1.0))->x(), 1.0);
+  EXPECT_DOUBLE_EQ(true_position(run, "t", time_from_seconds(9.0))->x(), 2.0);
+  EXPECT_FALSE(true_position(run, "u", time_from_seconds(9.0)));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ Eigen::Vector3d tag_place(std::size_t index) {
   return {4.0 + 0.1 * std::fmod(i, 3.0), 0.3 * i, 1.0};
 }
 
-/// Around a square of 2 m.
+/// Position along a square of 2 m.
 Eigen::Vector3d place_at(double travelled, double height) {
   const double along = std::fmod(travelled, 8.0);
   if (along < 2.0) return {along, 0.0, height};

@@ -28,7 +28,7 @@ NavigationSummary full_navigation() {
   return navigation;
 }
 
-/// A summary with all that it can hold.
+/// A summary with all members set.
 Summary full_summary() {
   Summary summary = summary_of({});
   summary.seeds = {std::numeric_limits<std::uint64_t>::max()};

@@ -63,7 +63,7 @@ TEST(PositionRms, ComparesPosesOfTheSameAntennaAtTheSameTime) {
   };
   const std::vector<AntennaPose> b = {pose(0.0, "a", 0.0, 0.0), pose(0.0, "fixed", 9.0, 0.0),
                                       pose(2.0, "a", 2.0, 0.0)};
-  // Half way on the other, 0.3 m off; beyond its end; the height doesn't count.
+  // Halfway along the other, with an error of 0.3 m; after its end; the height doesn't count.
   EXPECT_NEAR(*position_rms({pose(1.0, "a", 1.3, 5.0), pose(3.0, "a", 7.0, 0.0)}, b), 0.3, 1e-12);
   EXPECT_NEAR(*position_rms({pose(0.0, "a", 0.3, 0.0), pose(2.0, "a", 2.4, 0.0)}, b),
               std::sqrt((0.09 + 0.16) / 2.0), 1e-12);

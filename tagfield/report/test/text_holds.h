@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What tests of texts ask of them.
+/// Helpers for tests of texts.
 #pragma once
 
 #include <string>

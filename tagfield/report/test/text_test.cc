@@ -33,7 +33,7 @@ TEST(CleanText, KeepsWellFormedText) {
 TEST(CleanText, ReplacesWhatIsNoCharacterOfXml) {
   const std::string replacement = "\xEF\xBF\xBD";
   EXPECT_EQ(clean_text("a\x01"), "a" + replacement);
-  EXPECT_EQ(clean_text("\xC3"), replacement);                       // Cut off.
+  EXPECT_EQ(clean_text("\xC3"), replacement);                       // Truncated.
   EXPECT_EQ(clean_text("\xC0\xAF"), replacement + replacement);     // Overlong.
   EXPECT_EQ(clean_text("\xED\xA0\x80").substr(0, 3), replacement);  // Surrogate.
   EXPECT_EQ(clean_text("\xEF\xBF\xBF").substr(0, 3), replacement);  // U+FFFF.

@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-/// Keys of the paper's model that no physical one has.
+/// Keys of the paper's model that physical models don't have.
 constexpr std::array<const char*, 7> kPaperKeys = {"range_m",
                                                    "range_sigma",
                                                    "phase_noise_rad",
@@ -19,13 +19,13 @@ constexpr std::array<const char*, 7> kPaperKeys = {"range_m",
 
 constexpr const char* kPhysicalModels = "model: link_budget or model: multipath";
 
-/// Keys of antennas that both models have.
+/// Whether the antenna key is common to the paper's and the physical models.
 bool is_shared(const std::string& key) {
   return key == "frequency_hz" || key == "phase_offset_rad" || key == "sensitivity_dbm";
 }
 
-/// The first key of `map` that is a setting, and not of an antenna's shared ones, or else `other`;
-/// none where there is neither.
+/// `other` if `map` has it, or else the first key that is a setting and not one of an antenna's
+/// shared keys; none if there is neither.
 std::optional<std::string> physical_key_in(YamlMap& map, const std::vector<SettingHelp>& settings,
                                            const char* other, bool is_antenna) {
   if (map.has(other)) return other;

@@ -18,7 +18,7 @@ void warn(const YamlValue& value, std::string_view why, Diagnostics& diagnostics
   diagnostics.warn(value.location(), fmt::format("{} has no effect {}", value.path(), why));
 }
 
-/// Whether the number under `key` is there, and not 0.
+/// Whether the number under `key` is given and greater than 0.
 bool says_more_than_zero(YamlMap& map, const char* key) {
   return map.has(key) && map.at(key).number() > 0.0;
 }
@@ -28,7 +28,7 @@ bool any_on_a_robot(const Scenario& scenario) {
                      [](const AntennaSpec& antenna) { return !antenna.on.empty(); });
 }
 
-/// Of poses that are believed, but no antenna's.
+/// Warns about a pose belief that applies to no antenna.
 void warn_of_unused_belief(YamlMap& map, const Scenario& scenario, Diagnostics& diagnostics) {
   const PoseSource source = scenario.pose.source;
   const bool is_for_robots = source == PoseSource::kNoisy || source == PoseSource::kOdometry;
@@ -38,7 +38,7 @@ void warn_of_unused_belief(YamlMap& map, const Scenario& scenario, Diagnostics& 
        diagnostics);
 }
 
-/// What says where poses come from; none where nothing does.
+/// The value that selects the source of poses; none if there is none.
 std::optional<YamlValue> switch_of(YamlMap& map) {
   if (map.has("navigation")) {
     const YamlValue navigation = map.at("navigation");
@@ -51,11 +51,11 @@ std::optional<YamlValue> switch_of(YamlMap& map) {
   return pose.has("source") ? std::optional<YamlValue>(pose.at("source")) : std::nullopt;
 }
 
-/// Whether it stands in the scenario's file, and not on the command line.
+/// Whether the value is from the scenario's file, not the command line.
 bool is_in_file(const YamlValue& value) { return value.location().file == value.file(); }
 
-/// Of keys that nothing uses with this source, but those of a file whose source was replaced from
-/// the command line: whoever does that tries the other one out.
+/// Warns about keys that are not used with this source, except those of a file whose source was
+/// overridden from the command line: that is a user trying out another source.
 void warn_beside(const std::optional<YamlValue>& source, YamlMap map,
                  std::initializer_list<const char*> keys, std::string_view why,
                  Diagnostics& diagnostics) {
@@ -85,7 +85,7 @@ void warn_of_pose(YamlMap map, PoseSource source, const std::optional<YamlValue>
   }
 }
 
-/// The first robot that has somewhere to go navigates.
+/// The first robot with waypoints or goals navigates.
 void warn_of_navigating_robot(YamlMap& map, const Scenario& scenario,
                               const std::optional<YamlValue>& of_source, Diagnostics& diagnostics) {
   const auto navigates = std::find_if(scenario.robots.begin(), scenario.robots.end(), drives);
@@ -124,8 +124,7 @@ void add(YamlMap map, std::initializer_list<const char*> keys, std::vector<Place
   }
 }
 
-/// Whether the setting was given for the antennas of the whole scenario, and some other one makes
-/// use of it.
+/// Whether the setting was given for all antennas of the scenario and another one uses it.
 bool is_used_by_another(const Scenario& scenario, const RawParameter& setting) {
   const bool is_for_all = setting.key == "diffraction" || setting.key == "interference" ||
                           setting.key == "tag_coupling";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Keys of a scenario that change nothing beside the others that it has: pose.sigma_m with the true
-/// pose, a material where no antenna's waves meet the world. Whoever writes one expects something
-/// of it, and is told.
+/// Keys of a scenario that have no effect in combination with its others: pose.sigma_m with the
+/// true pose, a material where no antenna's waves interact with the world. They cause a warning,
+/// since whoever writes one expects an effect.
 #pragma once
 
 #include <string>
@@ -14,31 +14,31 @@
 
 namespace tagfield {
 
-/// Warns of keys of `map`, of which `scenario` was read, that nothing makes use of, whatever is in
-/// the world file.
+/// Warns about keys of `map`, from which `scenario` was read, that nothing uses whatever the world
+/// file contains.
 void warn_of_idle_keys(YamlMap& map, const Scenario& scenario, Diagnostics& diagnostics);
 
-/// A key and where it stands.
+/// A key and its location.
 struct PlacedKey {
   Location location;
   std::string path;
 };
 
-/// Keys that only antennas with a physical model make use of. (That there is none is known only
-/// with the world, which may bring some.)
+/// Keys that only antennas with a physical model use. (Whether there are any is known only with the
+/// world, which may add some.)
 std::vector<PlacedKey> keys_of_physical_models(YamlMap& map);
 
-/// Warns of `of_physical_models` where no antenna has such a model, and of settings of antennas and
-/// tags that change nothing (idle_settings.h), those of profiles aside.
+/// Warns about `of_physical_models` if no antenna has such a model, and about settings of antennas
+/// and tags that have no effect (idle_settings.h), except those from profiles.
 void warn_of_idle_settings(const Scenario& scenario,
                            const std::vector<PlacedKey>& of_physical_models,
                            Diagnostics& diagnostics);
 
-/// Whether the setting stands in a file of the scenario or on the command line: not in a profile,
-/// and not in an SDF file, whose settings are looked at as they are read.
+/// Whether the setting is from a scenario file or the command line: not from a profile, and not
+/// from an SDF file, whose settings are checked when it is read.
 bool is_own(const RawParameter& setting);
 
-/// Warns of settings of one antenna or kind of tag, called `whose`, that change nothing in it.
+/// Warns about settings of one antenna or kind of tag, called `whose`, that have no effect.
 void warn_of_idle_settings(const RadioModel& antenna, const std::string& whose,
                            Diagnostics& diagnostics);
 void warn_of_idle_settings(const TagModel& tag, const std::string& whose, Diagnostics& diagnostics);

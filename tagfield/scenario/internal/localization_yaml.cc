@@ -15,7 +15,7 @@
 namespace tagfield {
 namespace {
 
-/// A method that there is.
+/// The method of that name; throws Error if there is none.
 Method method_of(const YamlValue& value, const std::vector<Method>& methods) {
   std::vector<std::string> names;
   names.reserve(methods.size());
@@ -23,7 +23,7 @@ Method method_of(const YamlValue& value, const std::vector<Method>& methods) {
   return methods[static_cast<std::size_t>(choice(value, names))];
 }
 
-/// Those of the settings that are there, as they stand.
+/// The settings that are given, as written.
 std::vector<RawParameter> settings_of(YamlMap& map, const std::vector<SettingHelp>& helps) {
   std::vector<RawParameter> settings;
   for (const SettingHelp& help : helps) {
@@ -34,7 +34,7 @@ std::vector<RawParameter> settings_of(YamlMap& map, const std::vector<SettingHel
   return settings;
 }
 
-/// The settings of all methods, each once.
+/// The settings of all methods, without duplicates.
 std::vector<SettingHelp> settings_of(const std::vector<Method>& methods) {
   std::vector<SettingHelp> all;
   for (const Method& method : methods) {
@@ -53,7 +53,7 @@ PoseErrorModel pose_error_of(YamlMap map) {
   return model;
 }
 
-/// Of what is known or asked for, and none of the methods makes use of.
+/// Warns about what is given but used by none of the methods.
 void warn_of_ignored(YamlMap& map, const std::vector<Method>& used, Diagnostics& diagnostics) {
   std::vector<std::string> names;
   names.reserve(used.size());
@@ -66,7 +66,7 @@ void warn_of_ignored(YamlMap& map, const std::vector<Method>& used, Diagnostics&
   }
 }
 
-/// The methods that are used, their settings checked.
+/// Reads the methods in use and checks their settings.
 void read_methods(YamlMap& map, const std::vector<Method>& methods, LocalizationSpec& spec,
                   Diagnostics& diagnostics) {
   std::vector<Method> used = {map.has("method") ? method_of(map.at("method"), methods)
@@ -82,7 +82,7 @@ void read_methods(YamlMap& map, const std::vector<Method>& methods, Localization
   warn_of_ignored(map, used, diagnostics);
 }
 
-/// Nothing is located, so nothing that says how has an effect.
+/// Nothing is localized, so no setting of localization has an effect.
 void warn_of_settings_of_none(YamlMap& map, Diagnostics& diagnostics) {
   for (const auto& entry : map.self().node()) {
     const std::string key = entry.first.as<std::string>("");

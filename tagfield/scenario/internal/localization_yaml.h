@@ -12,7 +12,7 @@
 
 namespace tagfield {
 
-/// `localization: none`, or a mapping; `methods` are those that it may name.
+/// `localization: none`, or a mapping; `methods` are the valid ones.
 LocalizationSpec localization_of(const YamlValue& value, const std::vector<Method>& methods,
                                  Diagnostics& diagnostics);
 

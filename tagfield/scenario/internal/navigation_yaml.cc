@@ -26,7 +26,7 @@ int count_of(YamlMap& map, const std::string& key, int otherwise, int least, int
   return static_cast<int>(count);
 }
 
-/// Lets a room's own check speak for the file.
+/// Runs the check of the parameters' own module and reports errors at the location in the file.
 template <class Parameters>
 void check_at(const YamlMap& map, const Parameters& parameters) {
   try {
@@ -42,7 +42,7 @@ StartBelief start_of(const YamlValue& value) {
   return kStarts[choice(value, {"known", "unknown", "random"})];
 }
 
-/// [t, x, y, yaw], or [t] for a place that is drawn.
+/// [t, x, y, yaw], or [t] for a random pose.
 Carrying carrying_of(const YamlValue& row) {
   const std::vector<double> n = row.numbers(1, 4);
   if (n.size() != 1 && n.size() != 4) {
@@ -123,7 +123,7 @@ PoseSource read_navigation(const YamlValue& value, NavigationSpec& navigation) {
   if (map.has("laser")) navigation.laser = laser_of(YamlMap(map.at("laser")));
   if (map.has("odometry")) {
     navigation.odometry = odometry_of(YamlMap(map.at("odometry")));
-    // The robot knows how well its wheels measure.
+    // The robot knows the accuracy of its odometry.
     navigation.mapper.odometry = navigation.odometry;
     navigation.localizer.odometry = navigation.odometry;
   }

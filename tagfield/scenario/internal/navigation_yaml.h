@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The parts of a scenario that say how robots find their way.
+/// The parts of a scenario that configure robot navigation.
 #pragma once
 
 #include "tagfield/scenario/navigation_spec.h"
@@ -10,15 +10,15 @@
 
 namespace tagfield {
 
-/// `navigation`: truth, noisy, odometry or slam; or a mapping with that as `mode` and with what
-/// docs/scenario.md lists.
+/// `navigation`: truth, noisy, odometry or slam; or a mapping with that as `mode` and the keys
+/// listed in docs/scenario.md.
 PoseSource read_navigation(const YamlValue& value, NavigationSpec& navigation);
 
-/// A robot's `goals`, `random_goals` and `carried`. Throws Error where it has more than one of
-/// these goals and waypoints.
+/// A robot's `goals`, `random_goals` and `carried`. Throws Error if it has more than one of goals,
+/// random goals and waypoints.
 void read_self_driving(YamlMap& map, RobotSpec& robot);
 
-/// Throws Error where a robot has what only one has that finds its way by itself.
+/// Throws Error if a robot has keys that are only for robots that navigate by themselves.
 void forbid_self_driving(YamlMap map);
 
 /// One of `obstacles`.

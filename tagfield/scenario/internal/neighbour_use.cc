@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// Whether any antenna that `fits` can send at the same time as `antenna`.
+/// Whether any antenna that `fits` can transmit at the same time as `antenna`.
 template <class Fits>
 bool any_at_once(const Scenario& scenario, const AntennaParameters& antenna, const Fits& fits) {
   return std::any_of(
@@ -45,7 +45,7 @@ void warn_of_mask(const Scenario& scenario, const AntennaParameters& antenna,
                                antenna.name));
 }
 
-/// Of a dwell at a port that is the only one in its cycle.
+/// Warns about a dwell time at a port that is the only one in its cycle.
 void warn_of_port_dwell(const std::vector<PortCycle>& cycles, const AntennaParameters& antenna,
                         Diagnostics& diagnostics) {
   const RawParameter* const at = last_of(physical(antenna)->settings, "port_dwell_s");

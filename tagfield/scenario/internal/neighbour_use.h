@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Whether what a scenario says of readers and tags beside one another does anything.
+/// Whether a scenario's settings for neighbouring readers and tags have an effect.
 #pragma once
 
 #include "tagfield/base/error.h"
@@ -8,9 +8,10 @@
 
 namespace tagfield {
 
-/// Throws Error at the place of an antenna's `interference: on` where no other reader ever sends
-/// while it does; warns of `tag_coupling: on` with one tag, of a `spectrum_mask` that no other
-/// reader minds, and of turns (`port_dwell_s`, `sharing: time`) that there is nobody to take with.
+/// Throws Error at the location of an antenna's `interference: on` if no other reader ever
+/// transmits at the same time. Warns about `tag_coupling: on` with a single tag, a `spectrum_mask`
+/// that affects no other reader, and turns (`port_dwell_s`, `sharing: time`) with nobody to take
+/// turns with.
 void require_use_of_neighbours(const Scenario& scenario, Diagnostics& diagnostics);
 
 }  // namespace tagfield

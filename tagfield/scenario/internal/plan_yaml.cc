@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMostPlaces = 200'000;
 constexpr std::size_t kMostMounts = 20'000;
 
-/// One number for all axes, or one each.
+/// One number for all axes, or one per axis.
 Eigen::Vector3d spacing_of(YamlMap& map, double otherwise_m) {
   if (!map.has("spacing_m")) return Eigen::Vector3d::Constant(otherwise_m);
   const YamlValue value = map.at("spacing_m");
@@ -30,7 +30,7 @@ Eigen::Vector3d spacing_of(YamlMap& map, double otherwise_m) {
   return {n[0], n[1], n[2]};
 }
 
-/// So many places from `low` to `high`, both included, that are at most `spacing` apart.
+/// Evenly spaced positions from `low` to `high` inclusive, at most `spacing` apart.
 std::vector<double> spread(double low, double high, double spacing) {
   const double gaps = std::ceil((high - low) / spacing - 1e-9);
   if (!(gaps < static_cast<double>(kMostPlaces)))
@@ -97,7 +97,7 @@ std::vector<Eigen::Quaterniond> orientations_of(YamlMap& map) {
   return all;
 }
 
-/// The settings of `map` as they stand, profiles left out.
+/// The settings of `map` as written, without those of profiles.
 std::vector<RawParameter> written(YamlMap& map, const std::vector<SettingHelp>& settings) {
   std::vector<RawParameter> all;
   for (const SettingHelp& setting : settings) {
@@ -135,7 +135,7 @@ PlanTags tags_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnosti
   return tags;
 }
 
-/// Points on a line from one to the other, or in the parallelogram of three corners.
+/// The given points, or points on a line or in the parallelogram spanned by three corners.
 std::vector<Eigen::Vector3d> mount_points(YamlMap& map) {
   std::vector<Eigen::Vector3d> points;
   for (const YamlValue& point : map.list("points")) points.push_back(position_of(point));
@@ -177,7 +177,7 @@ std::vector<Eigen::Vector3d> mount_points(YamlMap& map) {
   return points;
 }
 
-/// Where the boresight looks: [yaw, pitch] or [roll, pitch, yaw], in degrees.
+/// Orientations of the boresight: [roll, pitch, yaw], in degrees.
 std::vector<Eigen::Vector3d> looks_of(YamlMap& map) {
   std::vector<Eigen::Vector3d> rpy;
   for (const YamlValue& look : map.list("rpy_deg")) {
@@ -197,7 +197,7 @@ std::vector<double> powers_of(YamlMap& map, const RadioModel& model) {
   return powers;
 }
 
-/// The power that the regulation allows of this antenna at the reader's port [dBm].
+/// The maximum power at the reader's port that the regulation allows with this antenna [dBm].
 double most_power_dbm(const RadioModel& model) {
   constexpr double kDipole_dbi = 2.15;
   return model.plan.most_erp_dbm + kDipole_dbi - to_db(peak_gain(model.antenna)) +
@@ -230,7 +230,7 @@ void add_mounts(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostic
     map.self().fail(
         "needs model: link_budget or model: multipath: the paper's antennas have no power");
   }
-  Diagnostics at_profiles_power;  // That of powers_dbm counts, and is checked below.
+  Diagnostics at_profiles_power;  // The powers in powers_dbm apply instead, and are checked below.
   const std::shared_ptr<const RadioModel> made =
       radio_model_of(map, model, radio, at_profiles_power);
   like.antenna.model = made;
@@ -247,7 +247,7 @@ void add_mounts(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostic
   }
   like.power_dbm = powers_of(map, *made);
   require_legal(map.self(), like, *made);
-  // Links are evaluated at the greatest of the powers.
+  // Links are evaluated at the highest of the powers.
   auto strongest = std::make_shared<RadioModel>(*made);
   strongest->transmit_power_dbm = *std::max_element(like.power_dbm.begin(), like.power_dbm.end());
   Diagnostics found;
@@ -263,7 +263,7 @@ void add_mounts(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostic
   }
 }
 
-/// Mounts where no antenna may hang.
+/// Removes mounts at positions where no antenna may be mounted.
 void leave_out_forbidden(YamlMap& map, std::vector<PlanMount>& mounts) {
   for (const YamlValue& value : map.list("forbidden")) {
     const Eigen::AlignedBox3d box = box_of(value);
@@ -286,7 +286,7 @@ std::size_t count_of(YamlMap& map, const char* key, std::size_t otherwise, std::
   return number;
 }
 
-/// A share of 0 to 1, 0 itself only where `zero` says so.
+/// A share from 0 to 1, with 0 itself only if `zero` is set.
 double share_of(const YamlValue& value, bool zero) {
   const double share = value.number();
   if (share > (zero ? -1e-300 : 0.0) && share <= 1.0) return share;
@@ -335,7 +335,7 @@ PlanAim aim_of(YamlMap map) {
   return aim;
 }
 
-/// A place is that of a tag at rest.
+/// A position error is defined for stationary tags only.
 void require_rest(const YamlValue& aim, const std::vector<PlanTags>& tags) {
   for (const PlanTags& group : tags) {
     if (group.path.empty()) continue;

@@ -9,7 +9,7 @@
 
 namespace tagfield {
 
-/// All of the section. `duration_s` is how long tags are there where the section does not say.
+/// Reads the whole section. `duration_s` is the tags' dwell time if the section gives none.
 PlanSpec plan_of(YamlMap map, const RadioDefaults& radio, double duration_s,
                  Diagnostics& diagnostics);
 

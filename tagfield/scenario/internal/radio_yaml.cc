@@ -15,7 +15,7 @@
 namespace tagfield {
 namespace {
 
-/// A file, or the name of a shipped profile. A file of that name comes first.
+/// A file, or the name of a shipped profile. A file of that name takes precedence.
 std::string profile_file(const YamlValue& value, const std::vector<ProfileKind>& kinds) {
   std::string path = resolve_path(value);
   if (is_file(path)) return path;
@@ -68,7 +68,7 @@ Material material_of(YamlMap map) {
   return material;
 }
 
-/// The scenario's own go before the known ones of the same name.
+/// The scenario's own override the known ones of the same name.
 std::vector<Material> materials_of(YamlMap& scenario) {
   std::vector<Material> materials;
   for (const YamlValue& value : scenario.list("materials")) {

@@ -15,15 +15,15 @@
 
 namespace tagfield {
 
-/// A scalar, or a list's scalars between spaces, as the settings take it.
+/// A scalar, or a list's scalars separated by spaces, as the settings expect it.
 RawParameter raw_parameter(const std::string& key, const YamlValue& value);
 
-/// What holds for all antennas and tags that don't say otherwise.
+/// Defaults for all antennas and tags.
 struct RadioDefaults {
   PropagationModel model = PropagationModel::kPaper;
-  /// `diffraction`, `interference`, `tag_coupling`; an antenna's own go before them.
+  /// `diffraction`, `interference`, `tag_coupling`; overridden by an antenna's own.
   std::vector<RawParameter> antenna;
-  std::vector<RawParameter> without;  ///< Together with an antenna's own.
+  std::vector<RawParameter> without;  ///< Added to an antenna's own.
   std::shared_ptr<const TagModel> tag = default_tag_model();
 };
 
@@ -39,14 +39,14 @@ std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, PropagationMo
 std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& defaults,
                                              Diagnostics& diagnostics);
 
-/// The file of a profile that was given by its file or its name.
+/// The file of a profile that was given by path or by name.
 std::string profile_file_of_tag(const YamlValue& value);
 std::string profile_file_of_antenna(const YamlValue& value);
 
-/// The material that `name` names among those of the scenario.
+/// The scenario's material called `name`.
 Material material_in(const RadioWorldOptions& options, const YamlValue& name);
 
-/// What the world is made of: `world.materials`, `world.default_material`, `world.least_facet_m2`,
+/// The materials of the world: `world.materials`, `world.default_material`, `world.least_facet_m2`,
 /// and the scenario's own `materials`.
 RadioWorldOptions radio_world_options_of(YamlMap& scenario);
 

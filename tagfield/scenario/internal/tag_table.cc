@@ -21,7 +21,7 @@ using Kind = std::shared_ptr<const TagModel>;
 constexpr const char* kAngles[] = {"roll_rad", "pitch_rad", "yaw_rad"};
 constexpr double kMostAngle_rad = 1e5;
 
-/// Places of the three columns; none where none of them is there.
+/// Indices of the three columns; none if none of them exists.
 std::optional<std::array<std::size_t, 3>> angle_columns(const CsvTable& table) {
   bool any = false;
   for (const char* const name : kAngles) any = any || table.has_column(name);

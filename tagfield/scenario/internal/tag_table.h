@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Many tags at rest as a CSV table.
+/// Stationary tags as a CSV table.
 #pragma once
 
 #include <memory>
@@ -11,9 +11,9 @@
 
 namespace tagfield {
 
-/// Reads `tag,x_m,y_m,z_m`, a row a tag, and where the columns are there its orientation,
-/// `roll_rad,pitch_rad,yaw_rad` (all three), and its kind, `profile`: a shipped profile's name, or
-/// a file relative to the table; empty for `otherwise`. Throws Error "FILE:LINE: …".
+/// Reads `tag,x_m,y_m,z_m`, one row per tag, and, if the columns exist, the orientation
+/// `roll_rad,pitch_rad,yaw_rad` (all three) and the kind `profile`: a shipped profile's name, or a
+/// file relative to the table; empty for `otherwise`. Throws Error "FILE:LINE: …".
 std::vector<TagSpec> read_tag_table(const std::string& path,
                                     const std::shared_ptr<const TagModel>& otherwise,
                                     Diagnostics& diagnostics);

@@ -7,7 +7,7 @@
 namespace tagfield {
 namespace {
 
-/// Beyond all places that a scenario can have [m].
+/// Beyond all positions that a scenario can have [m].
 constexpr double kAnyHeight_m = 1e6;
 
 ZoneSpec zone_of(YamlMap map) {

@@ -10,7 +10,7 @@
 
 namespace tagfield {
 
-/// A list of {name, box, readers}; no two of one name.
+/// A list of {name, box, readers} with unique names.
 std::vector<ZoneSpec> zones_of(YamlMap& scenario);
 
 /// [x0, y0, x1, y1], or [x0, y0, z0, x1, y1, z1], with corners in any order.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys that change nothing beside others are warned of, at their place.
+// Keys without effect in combination with others cause a warning at their location.
 #include <gtest/gtest.h>
 
 #include "tagfield/base/test/error_text.h"
@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-/// An antenna on a robot and a tag, with a physical model or the paper's.
+/// An antenna on a robot and a tag, with a physical model or the paper's model.
 std::string hall(const std::string& model, const std::string& antenna = "",
                  const std::string& rest = "") {
   return "model: " + model + "\nduration_s: 3\nrobots:\n  - {name: r, start: [0, 0, 0]}\n" +
@@ -140,7 +140,7 @@ TEST(IdleKeys, SettingsOfAntennasAndTagsAreToldWithTheirNames) {
       (Warnings{
           "6: session of antenna 'a' has no effect without inventory: gen2",
           "9: beam_width_deg of tag 'u' has no effect with pattern: dipole; expected patch"}));
-  // A profile says all of its device.
+  // A profile describes all of its device.
   EXPECT_EQ(warnings_of(hall("link_budget", ", profiles: [speedway_r420]")), Warnings{});
 }
 

@@ -14,7 +14,7 @@
 namespace tagfield {
 namespace {
 
-/// Line 4 is the robot's, 6 the navigation's, 7 the obstacles'.
+/// Line 4 has the robot, 6 the navigation, 7 the obstacles.
 std::string scenario_text(const std::string& robot, const std::string& navigation,
                           const std::string& obstacles) {
   return "seed: 1\nduration_s: 1\nrobots:\n  - {name: r, start: [0, 0, 0]" + robot +

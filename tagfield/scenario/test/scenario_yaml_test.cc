@@ -34,7 +34,7 @@ std::string write_scenario(const std::string& text) {
   return folder_of_test().with("scenario.yaml", text);
 }
 
-/// The complaint about the whole scenario with `from` replaced by `to`, without the folder.
+/// The error message for the whole scenario with `from` replaced by `to`, without the folder.
 std::string complaint(const std::string& from, const std::string& to) {
   std::string text = kWhole;
   const std::size_t at = text.find(from);
@@ -102,7 +102,7 @@ TEST(LoadScenario, ComplainsByLine) {
   EXPECT_NE(complaint("robots:", "robots: [").find("not valid YAML"), std::string::npos);
 }
 
-/// Fuzzing found that a name too long for the system left as an exception of another kind.
+/// Found by fuzzing: a name too long for the operating system caused an exception of another type.
 TEST(LoadScenario, ComplainsOfAProfileThatCantBeLookedFor) {
   const std::string name(300, 'a');
   const std::string complained = complaint("seed: 7", "seed: 7\ntag_profile: " + name);
@@ -222,7 +222,7 @@ tags:
   - {id: t2, position: [1, 0.05, 1]}
 )";
 
-/// What is said of the two readers with `from` replaced by `to`: what is wrong, or warned of.
+/// The error or warning for the two readers with `from` replaced by `to`.
 std::string said_of_two(const std::string& from, const std::string& to) {
   std::string text = kTwoReaders;
   text.replace(text.find(from), from.size(), to);

@@ -32,7 +32,7 @@ TEST(TagTable, HasOrientationAndKind) {
                        "5707963267948966,monza_r6\n"
                        "b,1,2,3,0,0,0,\n"));
   ASSERT_EQ(tags.size(), 2U);
-  // The face looks along y.
+  // The tag's normal points along y.
   EXPECT_TRUE((tags[0].motion.front().X_WB.rotation * Eigen::Vector3d::UnitX())
                   .isApprox(Eigen::Vector3d::UnitY(), 1e-12));
   ASSERT_NE(tags[0].model, nullptr);

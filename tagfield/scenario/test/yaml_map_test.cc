@@ -61,7 +61,7 @@ TEST(YamlMap, HasKeysOfText) {
   const std::string says = " has a key that is not text";
   EXPECT_EQ(map_complaint([] { map_of("a: 1\n? [b, c]\n: 2\n"); }), "f.yaml:2:" + says);
   EXPECT_EQ(map_complaint([] { map_of("a: 1\n? {b: c}\n: 2\n"); }), "f.yaml:2:" + says);
-  // The parser has no place for nothing but the one after it.
+  // For an empty key the parser only reports the position after it.
   EXPECT_EQ(map_complaint([] { map_of("a: 1\n?\n"); }), "f.yaml:3:" + says);
 }
 

@@ -20,7 +20,7 @@ using tinyxml2::XMLElement;
 
 constexpr std::size_t kMostBytes = 1'000'000'000;
 
-/// Of these, nothing is geometry, wherever they stand.
+/// Elements that never contain geometry, wherever they appear.
 constexpr std::array<std::string_view, 12> kOthers = {"extra",
                                                       "instance_camera",
                                                       "instance_light",
@@ -38,7 +38,7 @@ bool is_other(const XMLElement& element) {
   return std::find(kOthers.begin(), kOthers.end(), element.Name()) != kOthers.end();
 }
 
-/// Lists of whole numbers: on another character in one, assimp (5.2.5) reads without an end.
+/// Lists of integers: any other character in one sends assimp (5.2.5) into an endless loop.
 constexpr std::array<std::string_view, 4> kWholeNumbers = {"p", "h", "v", "vcount"};
 
 void require_whole_numbers(const std::string& path, const XMLElement& element) {
@@ -59,7 +59,7 @@ void drop_others(const std::string& path, XMLElement& element) {
   XMLElement* child = element.FirstChildElement();
   while (child != nullptr) {
     XMLElement* const next = child->NextSiblingElement();
-    // A material is known by its effect, whatever that looks like.
+    // Only the name of a material's effect matters, not its contents.
     if (is_other(*child)) {
       element.DeleteChild(child);
     } else if (std::string_view(child->Name()) == "profile_COMMON") {

@@ -11,7 +11,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Before it poses and sizes were attributes.
+/// In earlier versions, poses and sizes were attributes.
 constexpr int kOldestVersion = 1002;
 
 void require_sdf(Context& context, const XMLElement& root) {
@@ -73,7 +73,7 @@ void miss(Context& context, const XMLElement& element, const std::string& reason
   context.missing.push_back({text_of(element), location_of(element), reason});
 }
 
-void tell_missing(Context& context) {
+void report_missing(Context& context) {
   std::vector<Missing> not_found;
   for (const Missing& missing : context.missing) {
     const std::string message =

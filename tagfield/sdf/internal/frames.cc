@@ -8,8 +8,9 @@
 namespace tagfield::sdf_internal {
 namespace {
 
-/// Where finding a pose takes more steps, frames are taken for circles. Each may be a level on the
-/// stack; and where names lead into models the ways branch, so that all of them are counted.
+/// If finding a pose takes more steps, the frames are assumed to form a cycle. Each step may be a
+/// level on the stack; and where names lead into nested models the search branches, so the steps of
+/// all branches are counted.
 constexpr int kMostSteps = 2'000;
 
 bool is_own(const std::string& name) {
@@ -18,7 +19,7 @@ bool is_own(const std::string& name) {
 
 std::optional<RigidTransform> walk(const Scope& scope, const std::string& name, int& steps_left);
 
-/// Of "MODEL::FRAME", trying each "::" for the one behind the model's name.
+/// The pose of "MODEL::FRAME", trying each "::" as the one after the model's name.
 std::optional<RigidTransform> walk_into_models(const Scope& scope, const std::string& name,
                                                int& steps_left) {
   for (std::size_t at = name.find("::"); at != std::string::npos; at = name.find("::", at + 2)) {

@@ -19,7 +19,7 @@ constexpr png_uint_32 kMostPixels = 16'385;  ///< In a row or column.
 struct RedChannel {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> reds;  ///< Rows from the top.
+  std::vector<std::uint8_t> reds;  ///< Top row first.
 
   [[nodiscard]] double at(int row, int column) const {
     return reds[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
@@ -27,7 +27,7 @@ struct RedChannel {
   }
 };
 
-/// libpng's simplified interface, which frees what it holds when it is done or fails.
+/// libpng's simplified interface, which frees its memory on success and on failure.
 RedChannel read_png(const std::string& path) {
   const std::string bytes = read_text_file(path, kMostBytes);
   png_image image{};
@@ -51,7 +51,7 @@ RedChannel read_png(const std::string& path) {
   return reds;
 }
 
-/// Numbers of the pixels that are used in a row or column of `count`.
+/// Indices of the pixels that are used in a row or column of `count`.
 std::vector<int> used_pixels(int count) {
   const int step = (count - 2) / (kMostHeights - 1) + 1;
   std::vector<int> used;
@@ -66,7 +66,7 @@ void add_triangles(TriangleMesh& mesh, std::size_t rows, std::size_t columns) {
   };
   for (std::size_t r = 0; r + 1 < rows; ++r) {
     for (std::size_t c = 0; c + 1 < columns; ++c) {
-      // Rows go down along y, so that these turn left seen from above.
+      // Rows run in the direction of −y, so these are counterclockwise seen from above.
       mesh.triangles.push_back({vertex(r, c), vertex(r + 1, c), vertex(r + 1, c + 1)});
       mesh.triangles.push_back({vertex(r, c), vertex(r + 1, c + 1), vertex(r, c + 1)});
     }

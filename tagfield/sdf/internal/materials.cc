@@ -13,7 +13,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// The element at the end of a path of first children; null where it breaks off.
+/// The element at the end of a path of first children; null if the path doesn't exist.
 const XMLElement* descendant(const XMLElement& element, std::initializer_list<const char*> names) {
   const XMLElement* at = &element;
   for (const char* name : names) {
@@ -33,7 +33,7 @@ std::string colour_of(const XMLElement& element) {
   return fmt::format("rgba({:g}, {:g}, {:g}, {:g})", rgba[0], rgba[1], rgba[2], rgba[3]);
 }
 
-/// "" where the SDF names neither a script nor a colour.
+/// "" if the SDF names neither a script nor a colour.
 std::string written_material(const XMLElement& visual) {
   const XMLElement* script = descendant(visual, {"material", "script", "name"});
   if (script != nullptr && !text_of(*script).empty() && text_of(*script) != "__default__") {
@@ -43,7 +43,7 @@ std::string written_material(const XMLElement& visual) {
   return diffuse == nullptr ? "" : colour_of(*diffuse);
 }
 
-/// Of the mesh file at `path`, read once.
+/// Materials of the mesh file at `path`, which is read once.
 const std::vector<std::string>& materials_of(Context& context, const std::string& path) {
   const auto [entry, is_new] = context.mesh_materials.try_emplace(path);
   if (is_new) entry->second = context.mesh_reader.read(path).materials;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The names of what visuals wear.
+/// Names of the materials of visuals.
 #pragma once
 
 #include <tinyxml2.h>
@@ -12,8 +12,8 @@
 
 namespace tagfield::sdf_internal {
 
-/// Adds what a <visual> names: its script's material, its colour "rgba(r, g, b, a)", or else the
-/// materials of the mesh that it shows. A mesh that can't be found or read is a warning.
+/// Adds the materials that a <visual> names: its script's material, its colour "rgba(r, g, b, a)",
+/// or else the materials of its mesh. Warns of a mesh that can't be found or read.
 void add_materials(Context& context, const tinyxml2::XMLElement& visual,
                    std::set<std::string>& materials);
 

@@ -22,7 +22,7 @@
 namespace tagfield {
 namespace {
 
-/// What no mesh of a world needs; a file that asks for more is refused instead of filling memory.
+/// More than any mesh of a world needs; larger files are refused instead of filling the memory.
 constexpr std::uintmax_t kMaxFileBytes = 1'000'000'000;
 constexpr std::size_t kMaxTriangles = 20'000'000;
 
@@ -30,7 +30,7 @@ constexpr std::size_t kMaxTriangles = 20'000'000;
   fail({path, 0}, message);
 }
 
-/// Assimp's messages may span lines.
+/// Assimp's messages may contain line breaks.
 std::string on_one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -74,7 +74,7 @@ Eigen::Affine3d to_eigen(const aiMatrix4x4& matrix) {
   return transform;
 }
 
-/// Gathers the triangles of the nodes it walks, with vertices at the same place made one.
+/// Collects the triangles of the nodes it visits, merging vertices with equal coordinates.
 class MeshGatherer {
  public:
   MeshGatherer(const aiScene& scene, const std::string& path, const std::string& submesh)
@@ -93,7 +93,8 @@ class MeshGatherer {
   [[nodiscard]] const std::set<std::string>& parts() const { return parts_; }
 
  private:
-  /// Gazebo names a part of a Collada file by its node, one of an OBJ file by its group.
+  /// In Gazebo, a part of a Collada file is named after its node, a part of an OBJ file after its
+  /// group.
   bool is_wanted(const aiNode& node, const aiMesh& part) {
     parts_.insert(node.mName.C_Str());
     return submesh_.empty() || submesh_ == node.mName.C_Str() || submesh_ == part.mName.C_Str();
@@ -113,7 +114,7 @@ class MeshGatherer {
     add_material(part);
   }
 
-  /// A mirroring transform turns faces inside out, so it takes the other order of corners.
+  /// A mirroring transform turns faces inside out, so the order of vertices is reversed.
   void add_faces(const aiMesh& part, const std::vector<std::uint32_t>& indices, bool mirrored) {
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
       const aiFace& face = part.mFaces[i];
@@ -138,7 +139,7 @@ class MeshGatherer {
     aiString name;
     scene_.mMaterials[part.mMaterialIndex]->Get(AI_MATKEY_NAME, name);
     const std::string text = name.C_Str();
-    // Assimp gives a part without a material one of its own, which the file doesn't name.
+    // Assimp gives a part without a material one of its own, which is not in the file.
     if (!text.empty() && text != AI_DEFAULT_MATERIAL_NAME) materials_.insert(text);
   }
 
@@ -192,7 +193,7 @@ MeshFile read_here(const std::string& path, const Eigen::Vector3d& scale,
   return file;
 }
 
-/// Rows, their count in front.
+/// Rows, preceded by their number.
 template <typename Row>
 void append(const Row* rows, std::uint64_t count, std::string& bytes) {
   bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
@@ -244,7 +245,7 @@ std::string request_of(const std::string& path, const Eigen::Vector3d& scale,
   return bytes;
 }
 
-/// In the reader's process.
+/// Runs in the reader's process.
 std::string answer_to(const std::string& request) {
   std::string_view bytes = request;
   const auto path = take<std::string>(bytes);
@@ -253,7 +254,7 @@ std::string answer_to(const std::string& request) {
   return bytes_of(read_here(path, {scale[0], scale[1], scale[2]}, submesh, bytes == "1"));
 }
 
-/// Far more than assimp takes of what is a mesh.
+/// Far more than assimp needs for a valid mesh.
 WorkLimits limits_of(const std::string& path) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);

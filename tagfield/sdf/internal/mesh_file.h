@@ -12,23 +12,22 @@
 
 namespace tagfield {
 
-/// A mesh as it stands in a file.
+/// A mesh as stored in a file.
 struct MeshFile {
-  TriangleMesh mesh;                   ///< [m], each coordinate times the scale asked for.
-  std::vector<std::string> materials;  ///< Names of the materials in the file that the mesh uses.
+  TriangleMesh mesh;                   ///< [m], each coordinate multiplied by the requested scale.
+  std::vector<std::string> materials;  ///< Names of the file's materials that the mesh uses.
 };
 
-/// Reads Collada, STL, OBJ and whatever else Assimp reads, in a process of its own, with limits on
-/// time and memory by the file's size: some malformed files break it.
+/// Reads Collada, STL, OBJ and every other format of Assimp, in a separate process, with limits on
+/// time and memory that depend on the file's size, because some malformed files crash Assimp.
 class MeshReader {
  public:
   MeshReader();
 
-  /// Collada's unit of length is applied and its up axis is not: Gazebo does the same, so a mesh
-  /// stands as it does there. `submesh` picks one named part ("" for all), `center` moves that
-  /// part's bounding box onto the origin.
-  /// Throws Error "FILE: …" if the file is missing, can't be read, has no triangles, or has
-  /// coordinates that are not finite.
+  /// Collada's unit of length is applied but its up axis is not, as in Gazebo, so a mesh has the
+  /// same orientation as there. `submesh` selects one named part ("" for all), `center` moves that
+  /// part's bounding box to the origin. Throws Error "FILE: …" if the file is missing, can't be
+  /// read, has no triangles, or has coordinates that are not finite.
   MeshFile read(const std::string& path, const Eigen::Vector3d& scale = Eigen::Vector3d::Ones(),
                 const std::string& submesh = "", bool center = false);
 

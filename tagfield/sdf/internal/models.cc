@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using tinyxml2::XMLElement;
 
-/// Which of a model.config's <sdf>s is of the newest version; model.sdf where it names none.
+/// The <sdf> of the newest version in a model.config; model.sdf if it names none.
 std::string newest_sdf(const XMLElement& config) {
   std::string newest = "model.sdf";
   int version = -1;
@@ -45,7 +45,7 @@ std::string model_file(const std::string& place) {
   return fs::is_regular_file(path, error) ? path : "";
 }
 
-/// Reads models and remembers which files it is in.
+/// Reads models and tracks the files it is currently in.
 class ModelReader {
  public:
   explicit ModelReader(Context& context) : context_(context) {}
@@ -60,8 +60,8 @@ class ModelReader {
     return world;
   }
 
-  /// `include` is the element that asks for the model, which may say other things of it than the
-  /// model itself, or null.
+  /// `include` is the element that includes the model, which may override some of its properties,
+  /// or null.
   std::unique_ptr<Model> model(const XMLElement& element, const XMLElement* include) {
     if (++models_ > kMostModels) {
       fail(location_of(element), fmt::format("over {} models", kMostModels));
@@ -79,7 +79,7 @@ class ModelReader {
   }
 
  private:
-  /// What worlds and models have alike: frames, models and includes.
+  /// The elements common to worlds and models: frames, models and includes.
   template <typename Around>
   void read_into(Around& around, const XMLElement& element) {
     for_each_child(element, [&](const XMLElement& child) {
@@ -90,7 +90,7 @@ class ModelReader {
     });
   }
 
-  /// Models that came while a world that was then saved ran stand in its <state>.
+  /// Models inserted while the world was running are saved in its <state>.
   void add_inserted(World& world, const XMLElement& element) {
     const XMLElement* state = element.FirstChildElement("state");
     const XMLElement* inserted =
@@ -102,7 +102,8 @@ class ModelReader {
 
   template <typename Around>
   void add(Around& around, std::unique_ptr<Model> model) {
-    // Gazebo 11 has but the first of two in a world, and both in a model.
+    // Of two models with the same name, Gazebo 11 keeps only the first in a world, but both in a
+    // model.
     if (std::is_same_v<Around, World> && around.scope.models.count(model->name) > 0) {
       context_.diagnostics.warn(
           location_of(*model->frame.element),
@@ -114,7 +115,7 @@ class ModelReader {
     around.models.push_back(std::move(model));
   }
 
-  /// Of two of one name the first is the one that others are relative to.
+  /// If two have the same name, others are relative to the first.
   void name_frame(Scope& scope, const std::string& name, const Frame& frame) {
     const auto [known, is_new] = scope.frames.try_emplace(name, frame);
     if (is_new) return;
@@ -135,14 +136,14 @@ class ModelReader {
     model.links.push_back(std::move(link));
   }
 
-  /// Joints are used as frames alone.
+  /// Joints are used only as frames.
   void add_joint(Model& model, const XMLElement& element) {
     const std::string name = attribute_of(element, "name");
     if (name.empty()) return;
     model.scope.frames.try_emplace(name, frame_of(context_, element, child_text(element, "child")));
   }
 
-  /// Sets X_RM, so that the placement frame, if there is one, stands where the pose says.
+  /// Sets X_RM such that the placement frame, if there is one, has the given pose.
   void place(Model& model, const XMLElement* include) {
     const bool has_pose = include != nullptr && include->FirstChildElement("pose") != nullptr;
     model.frame = frame_of(context_, has_pose ? *include : *model.element);
@@ -171,7 +172,7 @@ class ModelReader {
     add(around, std::move(model));
   }
 
-  /// Null where nothing of it can be used.
+  /// Null if nothing of it can be used.
   std::unique_ptr<Model> included(const XMLElement& include) {
     const XMLElement* const uri = include.FirstChildElement("uri");
     if (uri == nullptr || text_of(*uri).empty()) {
@@ -197,8 +198,8 @@ class ModelReader {
     return read;
   }
 
-  /// Its parts become parts of `into`; what stood in its frame stands in one that is called after
-  /// it.
+  /// Moves its parts into `into`; parts relative to its model frame become relative to a new frame
+  /// named after it.
   void merge(Model& into, std::unique_ptr<Model> part) {
     const std::string frame = "_merged__" + part->name + kModelFrame;
     name_frame(into.scope, frame, part->frame);
@@ -220,7 +221,7 @@ class ModelReader {
   }
 
   Context& context_;
-  std::set<std::string> open_;  ///< Files.
+  std::set<std::string> open_;  ///< Files that are currently being read.
   std::size_t models_ = 0;
 };
 

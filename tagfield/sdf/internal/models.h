@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The models of a world or model file, with what they include.
+/// The models of a world or model file, including those it includes.
 #pragma once
 
 #include <tinyxml2.h>
@@ -19,15 +19,15 @@ struct Link {
   std::string name;
   const tinyxml2::XMLElement* element = nullptr;
   Frame frame;
-  /// What "__model__" means in it: the frame of a model that was merged into the one around it, or
-  /// "" for the one around it.
+  /// What "__model__" means in it: the frame of a model that was merged into the enclosing one, or
+  /// "" for the enclosing one.
   std::string model_frame;
 };
 
 struct Model {
   std::string name;
   const tinyxml2::XMLElement* element = nullptr;
-  Frame frame;  ///< In the scope around it.
+  Frame frame;  ///< In the enclosing scope.
   Scope scope;
   std::vector<Link> links;
   std::vector<std::unique_ptr<Model>> models;
@@ -40,15 +40,15 @@ struct World {
   std::vector<std::unique_ptr<Model>> models;
 };
 
-/// More models would take more memory than such a file is worth (about 2 KB each).
+/// More models would take more memory than such a file justifies (about 2 KB each).
 inline constexpr std::size_t kMostModels = 100'000;
 
-/// The world in `element`, a <world>. What it includes and is missing is added to the context's
-/// `missing`. Throws Error for elements without names, files that include themselves, and more than
-/// kMostModels models.
+/// The world in `element`, a <world>. Missing includes are added to the context's `missing`. Throws
+/// Error for elements without names, files that include themselves, and more than kMostModels
+/// models.
 World read_world(Context& context, const tinyxml2::XMLElement& element);
 
-/// The same of a <model>.
+/// Same for a <model>.
 std::unique_ptr<Model> read_model(Context& context, const tinyxml2::XMLElement& element);
 
 }  // namespace tagfield::sdf_internal

@@ -13,7 +13,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// With a single blank between words.
+/// The text with single spaces between words.
 std::string words_of(const XMLElement& element) {
   std::istringstream text(text_of(element));
   std::string words;
@@ -43,7 +43,7 @@ std::string whole_name(const NamedPlacement& s) {
   return s.model + "::" + s.link + "::" + s.placement.name;
 }
 
-/// The first of these that no other sensor has is a sensor's name.
+/// A sensor gets the first of these names that no other sensor has.
 std::array<NameOf, 3> scopes(SensorKind kind) {
   return {kind == SensorKind::kTag ? model_name : sensor_name, model_and_sensor, whole_name};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// RFID sensors to placements.
+/// Conversion of RFID sensors to placements.
 #pragma once
 
 #include <tinyxml2.h>
@@ -14,23 +14,23 @@
 
 namespace tagfield::sdf_internal {
 
-/// A placement with the names that would tell it from others, shortest first.
+/// A placement with the names that can distinguish it from others, shortest first.
 struct NamedPlacement {
   Placement placement;
-  std::string model;  ///< Scoped name of the model that it stands on.
+  std::string model;  ///< Scoped name of the model that it belongs to.
   std::string link;
 };
 
-/// Antenna or tag `sensor` (a <sensor>) at X_WS, on a link of a model. Its parameters are the
+/// The antenna or tag `sensor` (a <sensor>) at X_WS, on a link of a model. Its parameters are the
 /// children of its first <plugin>, and its <update_rate> if it has one.
 NamedPlacement read_sensor(const tinyxml2::XMLElement& sensor, const RigidTransform& X_WS,
                            const std::string& model, const std::string& link);
 
 enum class SensorKind { kAntenna, kTag };
 
-/// The placements under names of their own. An antenna has its sensor's name, a tag its model's, as
-/// models are what people name when they put tags into a world; where several would share that,
-/// "model::sensor", and where several would share that too, "model::link::sensor".
+/// The placements with unique names. An antenna has its sensor's name, a tag its model's, as people
+/// name models when they put tags into a world; where several would share a name, "model::sensor",
+/// and where several would share that, too, "model::link::sensor".
 std::vector<Placement> with_unique_names(const std::vector<NamedPlacement>& sensors,
                                          SensorKind kind);
 

@@ -16,11 +16,11 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// A shape's element and what is said of it.
+/// A shape's element, with context for messages.
 struct Asked {
   Context& context;
   const XMLElement& element;
-  const std::string& name;  ///< Of the collision.
+  const std::string& name;  ///< Name of the collision.
 };
 
 void leave_out(const Asked& asked, const std::string& reason) {
@@ -28,7 +28,7 @@ void leave_out(const Asked& asked, const std::string& reason) {
                                  fmt::format("collision '{}' is left out: {}", asked.name, reason));
 }
 
-/// The numbers of the child `name`, or those that Gazebo takes where there is none.
+/// The numbers of the child `name`, or Gazebo's defaults if there is none.
 std::vector<double> sizes_of(const Asked& asked, const char* name,
                              const std::vector<double>& otherwise) {
   const XMLElement* child = asked.element.FirstChildElement(name);
@@ -53,7 +53,7 @@ bool are_lengths(const std::vector<double>& sizes) {
   return true;
 }
 
-/// Whether all `sizes` are those of a solid; a warning where they are not.
+/// Whether all `sizes` are valid for a solid; warns if not.
 bool is_solid(const Asked& asked, const std::vector<double>& sizes) {
   if (are_lengths(sizes)) return true;
   leave_out(asked, fmt::format("a <{}> of {:g} m has no volume", asked.element.Name(),
@@ -105,7 +105,7 @@ MaybeShape read_ellipsoid(const Asked& asked) {
   return as_shape(ellipsoid_mesh({n[0], n[1], n[2]}));
 }
 
-/// The corners of each <polyline> in the geometry around the first.
+/// The vertices of each <polyline> in the geometry that contains the first.
 std::vector<Outline> outlines_of(const Asked& asked) {
   std::vector<Outline> outlines;
   for_each_child(*asked.element.Parent()->ToElement(), "polyline", [&](const XMLElement& line) {
@@ -147,7 +147,7 @@ MaybeShape read_plane(const Asked& asked) {
   return plane;
 }
 
-/// Calls `read` for the file that the child <uri> names; what is wrong with it is remembered.
+/// Calls `read` for the file that the child <uri> names; records any problem with it.
 template <typename Read>
 MaybeShape read_file_of(const Asked& asked, const Read& read) {
   const XMLElement* const uri = asked.element.FirstChildElement("uri");
@@ -235,7 +235,7 @@ std::optional<Shape> read_shape(Context& context, const XMLElement& collision,
   for (const Kind& kind : kKinds) {
     if (kind.name == shape->Name()) return kind.read(asked);
   }
-  // An <empty> one is no loss.
+  // Omitting an <empty> one is no loss.
   if (std::string_view(shape->Name()) != "empty") {
     leave_out(asked, fmt::format("shape <{}> is not known", shape->Name()));
   }

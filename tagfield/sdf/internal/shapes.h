@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// SDF geometry to shapes.
+/// Conversion of SDF geometry to shapes.
 #pragma once
 
 #include <tinyxml2.h>
@@ -14,10 +14,9 @@
 namespace tagfield::sdf_internal {
 
 /// The shape of `collision`, a <collision>, called `name` in messages. Capsules, ellipsoids, cones,
-/// polylines and heightmaps become meshes. A size that is left out is the one that Gazebo takes,
-/// with a warning. None, with a warning, for a shape without volume and one of another kind; none
-/// where its file is missing, which the context remembers. Throws Error for a size that is no
-/// number.
+/// polylines and heightmaps become meshes. A missing size gets Gazebo's default, with a warning.
+/// Nullopt, with a warning, for a shape without volume or of unknown type; nullopt if its file is
+/// missing, which the context records. Throws Error for a size that is not a number.
 std::optional<Shape> read_shape(Context& context, const tinyxml2::XMLElement& collision,
                                 const std::string& name);
 

@@ -23,14 +23,14 @@
 namespace tagfield {
 namespace {
 
-/// What goes in front of a request and of an answer.
+/// The header of a request and of an answer.
 struct Head {
-  std::uint64_t size = 0;  ///< Of what follows.
-  WorkLimits limits{};     ///< Of a request.
+  std::uint64_t size = 0;  ///< Size of the data that follows.
+  WorkLimits limits{};     ///< For a request.
   bool is_complaint = false;
 };
 
-/// While it lives, a reader that is gone is an error of write() and no signal.
+/// During its lifetime, a closed pipe makes write() fail instead of raising a signal.
 class NoPipeSignal {
  public:
   NoPipeSignal() {
@@ -87,7 +87,7 @@ bool receive_message(int pipe, Head& head, std::string& text) {
   return receive_all(pipe, text.data(), text.size());
 }
 
-/// Writable memory that this process has taken [bytes]: the sixth number of statm, in pages.
+/// Writable memory used by this process [bytes]: the sixth number of statm, in pages.
 std::optional<std::uint64_t> taken_memory() {
   std::istringstream numbers(read_text_file("/proc/self/statm", 1000));
   std::uint64_t pages = 0;
@@ -102,7 +102,7 @@ rlim_t taken_seconds() {
   return static_cast<rlim_t>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 1;
 }
 
-/// `most` or what the process may take anyway, whichever is less.
+/// Sets `most`, or the process's existing limit if that is lower.
 void set_limit(__rlimit_resource resource, rlimit limit, rlim_t most) {
   limit.rlim_cur = std::min(limit.rlim_cur, most);
   (void)::setrlimit(resource, &limit);
@@ -177,7 +177,7 @@ void WorkerProcess::answer_all(int requests, int answers) const {
       }
       text = work_(text);
     } catch (const std::bad_alloc&) {
-      text.clear();  // Which says so.
+      text.clear();  // An empty message stands for this.
       head.is_complaint = true;
     } catch (const std::exception& error) {
       text = error.what();

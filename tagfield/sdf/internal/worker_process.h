@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Work that may go wrong in a library: done by a process of its own, so that nothing but it is
-/// lost.
+/// Work that may crash in a library: done in a separate process, so that only that process is lost.
 #pragma once
 
 #include <sys/types.h>
@@ -13,14 +12,14 @@
 
 namespace tagfield {
 
-/// What one piece of work may take.
+/// Resource limits for one request.
 struct WorkLimits {
-  unsigned seconds = 2;                      ///< Of processor time.
-  std::uint64_t memory_bytes = 256'000'000;  ///< Beyond what there is already.
+  unsigned seconds = 2;                      ///< CPU time.
+  std::uint64_t memory_bytes = 256'000'000;  ///< In addition to the memory already in use.
 };
 
-/// A copy of this process that answers requests, one at a time. It begins with the first one, and
-/// again with the next where it broke down.
+/// A copy of this process that answers requests, one at a time. It is started by the first request,
+/// and restarted by the next one after a crash.
 class WorkerProcess {
  public:
   explicit WorkerProcess(std::function<std::string(const std::string&)> work)
@@ -29,8 +28,9 @@ class WorkerProcess {
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-  /// What the work makes of `request`. Throws Error with the message of what it throws; or, where
-  /// the process ends instead, with one that begins with `what` and says how.
+  /// The result of the work for `request`. If the work throws, throws Error with that message; if
+  /// the process terminates instead, throws Error with a message that begins with `what` and says
+  /// how it ended.
   std::string ask(const std::string& what, const WorkLimits& limits, const std::string& request);
 
  private:
@@ -41,7 +41,7 @@ class WorkerProcess {
 
   std::function<std::string(const std::string&)> work_;
   pid_t child_ = -1;
-  int requests_ = -1;  ///< Where they are written to.
+  int requests_ = -1;  ///< File descriptor that requests are written to.
   int answers_ = -1;
 };
 

@@ -18,7 +18,7 @@ const XMLElement* named_child(const XMLElement* element, const char* kind,
   return child;
 }
 
-/// In the world's frame, whatever it is a pose of; without one at its origin, as in Gazebo.
+/// The pose is always in the world frame; the identity if there is none, as in Gazebo.
 RigidTransform pose_in_world(Context& context, const XMLElement& element) {
   const XMLElement* pose = element.FirstChildElement("pose");
   return pose == nullptr ? RigidTransform{} : pose_of(*pose, context.diagnostics);

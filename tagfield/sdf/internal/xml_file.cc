@@ -19,8 +19,8 @@ using tinyxml2::XMLElement;
 
 constexpr std::size_t kMostBytes = 200'000'000;
 
-/// Blanks out <?xml …?>, which only may stand first, and what stands before the first element's
-/// declaration; lines stay where they are.
+/// Blanks out all declarations, <?xml …?>, which are otherwise accepted only at the start; line
+/// numbers don't change.
 void blank_out_declarations(std::string& text) {
   for (std::size_t begin = text.find("<?"); begin != std::string::npos;
        begin = text.find("<?", begin)) {
@@ -32,7 +32,7 @@ void blank_out_declarations(std::string& text) {
   }
 }
 
-/// The text with quotes around the values of attributes that have none, as Gazebo 11 takes them:
+/// The text with quotes added around attribute values that have none, which Gazebo 11 accepts:
 /// <link name=a> becomes <link name="a">.
 std::string with_quotes(const std::string& text) {
   constexpr const char* kBlank = " \t\r\n";
@@ -69,7 +69,7 @@ bool parse(XmlFile& file, const std::string& text) {
          file.document.RootElement() != nullptr;
 }
 
-/// The outline tells better what is wrong, where it sees it.
+/// The outline gives a better message, if it detects the error.
 [[noreturn]] void refuse_malformed(const XmlFile& file, const std::string& text) {
   const XmlOutline outline = outline_xml(text);
   if (outline.tags.empty()) fail({file.shown, std::max(outline.error_line, 1)}, "not an XML file");
@@ -81,7 +81,7 @@ bool parse(XmlFile& file, const std::string& text) {
                    tinyxml2::XMLDocument::ErrorIDToName(file.document.ErrorID())));
 }
 
-/// Roll, pitch and yaw about fixed axes, as SDF has them.
+/// Roll, pitch and yaw about fixed axes, as in SDF.
 Eigen::Quaterniond from_roll_pitch_yaw(double roll, double pitch, double yaw) {
   const double cr = std::cos(roll / 2.0);
   const double sr = std::sin(roll / 2.0);
@@ -110,7 +110,7 @@ void parse_xml(XmlFile& file) {
   try {
     text = read_text_file(file.path, kMostBytes);
   } catch (const Error& error) {
-    // The path that the caller wrote, not the one it was made into.
+    // The path as the caller wrote it, not as resolved.
     std::string message = error.what();
     if (message.rfind(file.path, 0) == 0) message.replace(0, file.path.size(), file.shown);
     throw Error(message);

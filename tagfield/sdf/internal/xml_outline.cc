@@ -52,7 +52,7 @@ class Scanner {
     return true;
   }
 
-  /// The place of the '>' that ends the tag here; one within quotes doesn't.
+  /// The position of the '>' that ends this tag, ignoring those in quotes.
   [[nodiscard]] std::size_t tag_end() const {
     char quote = '\0';
     for (std::size_t i = at_ + 1; i < text_.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where XML is malformed, which tinyxml2 tells by the line in which it gave up.
+/// Where XML is malformed; tinyxml2 only reports the line in which it gave up.
 #pragma once
 
 #include <string>
@@ -8,21 +8,21 @@
 
 namespace tagfield::sdf_internal {
 
-/// An element's start.
+/// The start of an element.
 struct XmlTag {
   std::string name;
   int line = 0;   ///< 1-based.
   int depth = 0;  ///< 0 for the root element.
 };
 
-/// All elements in the order of the file, as far as it is well-formed.
+/// All elements in file order, up to the first error.
 struct XmlOutline {
   std::vector<XmlTag> tags;
   std::string error;   ///< What is malformed, or "".
   int error_line = 0;  ///< 1-based.
 };
 
-/// Sees tags, comments, CDATA and declarations; leaves attributes and text alone. Not a validator:
+/// Parses tags, comments, CDATA and declarations, and ignores attributes and text. Not a validator:
 /// malformed attributes go unnoticed.
 XmlOutline outline_xml(const std::string& text);
 

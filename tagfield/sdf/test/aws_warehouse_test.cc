@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A world that nobody here wrote, with the oddities of a user's.
+/// A third-party world, with the irregularities of users' worlds.
 class AwsWarehouse : public testing::Test {
  protected:
-  /// One load for all of them: it takes about a second.
+  /// Loaded once for all tests: it takes about a second.
   struct Loaded {
     Diagnostics diagnostics;
     Scene scene = load_world(world(), {}, diagnostics);
@@ -36,7 +36,7 @@ class AwsWarehouse : public testing::Test {
   }
   static std::string world() { return folder() + "/worlds/no_roof_small_warehouse.world"; }
 
-  /// The collision mesh of the nested model `name`, read on its own.
+  /// The collision mesh of the nested model `name`, read separately.
   static MeshFile own_mesh(const std::string& name) {
     return read_mesh(folder() + "/models/" + name + "/meshes/" + name + "_collision.DAE");
   }
@@ -90,7 +90,7 @@ TEST_F(AwsWarehouse, WallsHaveTheirSize) {
 }
 
 TEST_F(AwsWarehouse, ModelsStandWhereTheWorldPutsThem) {
-  // <pose frame="">-5.795143 -0.956635 0 0 0 0</pose> of ShelfF_01_001, by eye from the file.
+  // <pose frame="">-5.795143 -0.956635 0 0 0 0</pose> of ShelfF_01_001, copied from the file.
   EXPECT_EQ(scene_.collisions.at(0).name,
             "aws_robomaker_warehouse_ShelfF_01_001::aws_robomaker_warehouse_ShelfF_01::link::"
             "collision");

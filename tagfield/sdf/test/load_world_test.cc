@@ -182,7 +182,7 @@ TEST_F(LoadWorld, ShapesThatBecomeMeshes) {
   EXPECT_TRUE(egg.min().isApprox(Eigen::Vector3d(-1, -2, -3)));
   const auto cone = bounds("<cone><radius>1</radius><length>4</length></cone>");
   EXPECT_TRUE(cone.sizes().isApprox(Eigen::Vector3d(2, 2, 4)));
-  // In Gazebo 11 a ball of 0.4 m comes to rest on this at 1.9 m.
+  // In Gazebo 11, a ball of 0.4 m comes to rest on this at 1.9 m.
   const auto bar = bounds(
       "<polyline><height>1.5</height><point>0 0</point><point>4 0</point><point>4 4</point>"
       "<point>0 4</point></polyline>");
@@ -216,7 +216,7 @@ TEST_F(LoadWorld, ShapesThatEncloseNothingAreLeftOutWithAWarning) {
   EXPECT_TRUE(warnings().empty());
 }
 
-/// As Gazebo 11 takes them.
+/// As in Gazebo 11.
 TEST_F(LoadWorld, SizesThatAreLeftOutAreGazebos) {
   const Scene scene = load(model_with("<sphere/>") +
                            "<model name='n'><link name='l'><collision name='c'><geometry><box/>"
@@ -306,7 +306,7 @@ TEST_F(LoadWorld, IncludesOfNothingAreLeftOutWithAWarning) {
                                                  ":4: <include> without <uri>: left out"});
 }
 
-/// As in three of Gazebo's own models, which Gazebo 11 reads.
+/// As in three of Gazebo's own models, which Gazebo 11 accepts.
 TEST_F(LoadWorld, AttributesNeedNoQuotes) {
   const Scene scene = load(
       "<!-- name=x '> --><model name = m><link name='l = 1'><collision name=c><geometry><sphere>"
@@ -395,7 +395,7 @@ TEST_F(LoadWorld, SavedStateSaysWhereModelsStand) {
   const Scene scene = load(
       "<state world_name='test'>"
       "<model name='turned'><pose>5 6 0 0 0 1.5707963267948966</pose></model>"
-      // The link moved in its model, which Gazebo tells in the world's frame.
+      // The link moved within its model; Gazebo reports its pose in the world frame.
       "<model name='bent'><pose>9 9 9 0 0 0</pose><link name='l'>"
       "<pose>2 3 4 0 0 0</pose></link></model></state>" +
           ball_called("turned") + ball_called("bent") + ball_called("as_written"),

@@ -69,7 +69,7 @@ std::string as_obj(const TriangleMesh& mesh, const std::string& group, std::size
   return text;
 }
 
-/// One geometry of the brick, shown by two nodes: `first` as it is, `second` moved by 10 along x.
+/// One geometry of the brick, used by two nodes: `first` unchanged, `second` moved by 10 along x.
 std::string as_collada(const TriangleMesh& mesh, const std::string& unit,
                        const std::string& up_axis) {
   std::string positions;
@@ -182,7 +182,7 @@ TEST_F(MeshFileTest, ColladaAppliesUnitAndNodesAndNoUpAxis) {
   }
 }
 
-/// What assimp refuses and Gazebo reads.
+/// Irregularities that assimp refuses but Gazebo accepts.
 TEST_F(MeshFileTest, LooksCamerasAndLightsOfAColladaFileMayBeOdd) {
   const std::string text = as_collada(brick(), "1", "Z_UP");
   const auto with = [&](const std::string& before, const std::string& odd) {
@@ -207,7 +207,7 @@ TEST_F(MeshFileTest, LooksCamerasAndLightsOfAColladaFileMayBeOdd) {
 TEST_F(MeshFileTest, IndicesOfAColladaFileAreWholeNumbers) {
   std::string text = as_collada(brick(), "1", "Z_UP");
   const std::size_t indices = text.find("<p>");
-  text.insert(indices + 3, "0~ ");  // On which assimp goes on for ever.
+  text.insert(indices + 3, "0~ ");  // With which assimp never terminates.
   const std::string path = write("endless.dae", text);
   const auto line = 1 + std::count(text.data(), text.data() + indices, '\n');
   EXPECT_EQ(error_of(path),
@@ -216,7 +216,7 @@ TEST_F(MeshFileTest, IndicesOfAColladaFileAreWholeNumbers) {
 
 TEST_F(MeshFileTest, AFileThatBreaksTheLibraryIsAnError) {
   std::string text = as_collada(brick(), "1", "Z_UP");
-  // Of a float_array: assimp 5.2.5 follows a null pointer, and 5.4.3 says so.
+  // In a float_array: assimp 5.2.5 dereferences a null pointer, 5.4.3 reports an error.
   text.replace(text.find(" count="), 7, " c0unt=");
   const std::string error = error_of(write("breaks.dae", text));
   const bool breaks = aiGetVersionMajor() == 5 && aiGetVersionMinor() <= 2;

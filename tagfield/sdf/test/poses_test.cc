@@ -7,7 +7,7 @@
 namespace tagfield {
 namespace {
 
-/// Expected poses are worked out by hand: a quarter turn about z takes (x, y) to (-y, x).
+/// Expected poses are computed by hand: a rotation by 90° about z maps (x, y) to (-y, x).
 class LoadWorldPoses : public WorldTest {
  protected:
   static std::string ball(const std::string& name, const std::string& pose) {
@@ -32,7 +32,7 @@ TEST_F(LoadWorldPoses, ComposeFromModelToLinkToCollision) {
                            "</pose><link name='l'><pose>1 0 0.5 0 0 " + kQuarter + "</pose>" +
                            ball("c", "<pose>2 0 0 0 0 0</pose>") + "</link></model>");
   ASSERT_EQ(scene.collisions.size(), 1U);
-  // Model turns (1, 0) to (0, 1); link and model together turn (2, 0) to (-2, 0).
+  // The model rotates (1, 0) to (0, 1); link and model together rotate (2, 0) to (-2, 0).
   expect_pose(scene.collisions[0], {8.0, 1.0, 0.5}, 2.0);
 }
 
@@ -40,7 +40,7 @@ TEST_F(LoadWorldPoses, RollPitchYawTurnAboutFixedAxes) {
   const Scene scene =
       load("<model name='m'><pose>0 0 0 " + std::string(kQuarter) + " 0 " + kQuarter +
            "</pose><link name='l'>" + ball("c", "<pose>0 1 0 0 0 0</pose>") + "</link></model>");
-  // Roll first: y goes to z; yaw then leaves z alone.
+  // Roll first: it moves y to z; yaw then leaves z unchanged.
   EXPECT_LT((scene.collisions.at(0).X_WC.translation - Eigen::Vector3d(0, 0, 1)).norm(), 1e-9);
 }
 
@@ -59,8 +59,8 @@ TEST_F(LoadWorldPoses, NestedModelsFramesAndRelativeTo) {
            ball("c", "") + "</link></model></model>");
   EXPECT_EQ(scene.models, (std::vector<std::string>{"outer", "outer::inner"}));
   ASSERT_EQ(scene.collisions.size(), 3U);
-  // outer stands at dock (5, 5), turned by a quarter, plus (1, 0) turned to (0, 1): (5, 6).
-  // arm is at (0, 1, 2) in outer: (4, 6, 2), turned by two quarters; (1, 0) is (-1, 0) there.
+  // outer is at dock (5, 5), rotated by 90°, plus (1, 0) rotated to (0, 1): (5, 6). arm is at (0,
+  // 1, 2) in outer: (4, 6, 2), rotated by 180°; (1, 0) is (-1, 0) there.
   EXPECT_EQ(scene.collisions[0].name, "outer::l::a");
   expect_pose(scene.collisions[0], {3.0, 6.0, 2.0}, 2.0);
   // b is 1 m above top, which is 2 m above outer.
@@ -122,14 +122,14 @@ TEST_F(LoadWorldPoses, WhatIsMergedStandsWhereItsModelWould) {
   EXPECT_EQ(scene.models, std::vector<std::string>{"m"});
   std::map<std::string, Collision> found;
   for (const Collision& collision : scene.collisions) found[collision.name] = collision;
-  // (10 + 1, 1) turned by a quarter is (-1, 11).
+  // (10 + 1, 1) rotated by 90° is (-1, 11).
   expect_pose(found.at("m::a::c"), {99.0, 11.0, 0.0}, 1.0);
   expect_pose(found.at("m::a::d"), {100.0, 10.0, 1.0}, 1.0);
   expect_pose(found.at("m::b::c"), {99.0, 11.0, 5.0}, 1.0);
   EXPECT_TRUE(warnings().empty());
 }
 
-/// As the real Gazebo 11 does with these two.
+/// As Gazebo 11 handles these two.
 TEST_F(LoadWorldPoses, RelativeToAFrameThatIsNotThereIsAWarning) {
   const Scene scene = load(
       "<model name='m'>\n<pose relative_to='nope'>1 2 3 0 0 0</pose>"
@@ -152,7 +152,7 @@ TEST_F(LoadWorldPoses, FramesInACircleAreNowhere) {
 }
 
 TEST_F(LoadWorldPoses, FramesInCirclesOverModelsComeToAnEnd) {
-  // A circle in each of three models, and each step of an outer one goes all round the inner ones.
+  // A cycle in each of three models; each step of an outer one goes through the whole inner cycle.
   const Scene scene = load(
       "<model name='m'><frame name='f' attached_to='n::g'/>"
       "<model name='n'><pose relative_to='n::g'/><frame name='g' attached_to='k::h'/>"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Meshes, one at a time.
+/// Reading of single meshes.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace tagfield {
 
-/// By a reader of its own.
+/// With a reader of its own.
 inline MeshFile read_mesh(const std::string& path,
                           const Eigen::Vector3d& scale = Eigen::Vector3d::Ones(),
                           const std::string& submesh = "", bool center = false) {

@@ -22,7 +22,7 @@ class LoadWorldSensors : public WorldTest {
   }
 };
 
-/// The form in which the published example places its antennas and tags.
+/// The form used by the published example for its antennas and tags.
 const char* const kPublishedForm = R"(<model name="fixed">
 <pose>3.5 -4.0 0 0 0 1.5707963267948966</pose>
 <static>true</static>
@@ -59,10 +59,10 @@ TEST_F(LoadWorldSensors, PublishedFormGivesAntennasTagsAndParameters) {
   const Placement& antenna = scene.antennas[0];
   EXPECT_EQ(antenna.name, "antenna");
   EXPECT_EQ(to_string(antenna.location), path_of("world.sdf") + ":7");
-  // A quarter turn takes (1, 0) to (0, 1).
+  // A rotation by 90° maps (1, 0) to (0, 1).
   EXPECT_LT((antenna.X_WS.translation - Eigen::Vector3d(3.5, -3.0, 2.0)).norm(), 1e-9);
   EXPECT_NEAR(yaw_of(antenna.X_WS.rotation), 1.5707963267948966, 1e-9);
-  EXPECT_EQ(scene.tags[0].name, "tag1");  // Its model's, not the sensor's.
+  EXPECT_EQ(scene.tags[0].name, "tag1");  // Its model's name, not the sensor's.
   EXPECT_EQ(scene.tags[0].X_WS.translation, Eigen::Vector3d(2.90, 0.57, 2.05));
   EXPECT_TRUE(scene.tags[0].parameters.empty());
 }

@@ -11,14 +11,14 @@
 namespace tagfield {
 namespace {
 
-/// The project's own world keeps what its first lines promise.
+/// The project's own world is as its first lines describe it.
 class SmallWarehouse : public testing::Test {
  protected:
   SmallWarehouse()
       : scene_(load_world(std::string(TAGFIELD_SOURCE_DIR) + "/worlds/small_warehouse.sdf", {},
                           diagnostics_)) {}
 
-  /// Bounds in the world of all collisions whose name starts with `prefix`, but for planes.
+  /// Bounds in the world frame of all collisions whose name starts with `prefix`, except planes.
   [[nodiscard]] Eigen::AlignedBox3d bounds(const std::string& prefix) const {
     Eigen::AlignedBox3d box;
     for (const Collision& collision : scene_.collisions) {

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// Does what the request says.
+/// Does what the request names.
 std::string work(const std::string& request) {
   if (request == "complain") throw Error("mesh.dae:3: is odd");
   if (request == "crash") (void)std::raise(SIGSEGV);
@@ -35,7 +35,7 @@ std::string error_of(WorkerProcess& process, const std::string& request, unsigne
 
 TEST(WorkerProcess, AnswersOneRequestAfterTheOther) {
   WorkerProcess process(work);
-  std::string long_text(3'000'000, '\0');  // Far more than a pipe holds.
+  std::string long_text(3'000'000, '\0');  // Far more than fits into a pipe's buffer.
   long_text.back() = 'x';
   for (const std::string& text : {std::string(), std::string("R"), long_text}) {
     EXPECT_EQ(process.ask("it", {}, text), text + text);

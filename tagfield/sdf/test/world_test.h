@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the tests of load_world share: a folder of files of their own.
+/// Fixture shared by the tests of load_world: a folder with files of its own.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ class WorldTest : public testing::Test {
     return load_world(path, search_paths, diagnostics_);
   }
 
-  /// The message of the Error that loading `path` throws, or "".
+  /// The message of the Error thrown when loading `path`, or "".
   std::string error_of_file(const std::string& path) {
     try {
       load_file(path);
@@ -48,7 +48,7 @@ class WorldTest : public testing::Test {
     return "";
   }
 
-  /// The same for a world as load() makes it, and without the file's folder.
+  /// Same for a world made as in load(), without the file's folder.
   std::string error_of(const std::string& inside, const std::string& version = "1.9") {
     const std::string message = error_of_file(write("world.sdf", world(inside, version)));
     const std::string prefix = path_of("");
@@ -59,7 +59,7 @@ class WorldTest : public testing::Test {
     return "<sdf version='" + version + "'>\n<world name='test'>\n" + inside + "\n</world></sdf>\n";
   }
 
-  /// A model "m" with a link "l" with a collision "c", each on the line of its own: 3, 4 and 5.
+  /// A model "m" with a link "l" with a collision "c", each on its own line: 3, 4 and 5.
   static std::string model_with(const std::string& geometry) {
     return "<model name='m'>\n<link name='l'>\n<collision name='c'>\n<geometry>" + geometry +
            "</geometry></collision></link></model>";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One key of the physical models: what it is for, and how its value is taken.
+/// One key of the physical models: its meaning and how its value is parsed.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace tagfield::settings_internal {
 using tagfield::choice_in;
 using tagfield::Setting;
 
-/// A number with a unit that is `factor` of the member's.
+/// A number whose unit is `factor` times that of the member.
 template <class T>
 Setting<T> number(const char* key, const char* unit, const char* meaning,
                   std::function<double&(T&)> member, double factor = 1.0) {

@@ -10,7 +10,7 @@
 
 namespace tagfield::settings_internal {
 
-/// A plan is put together from several keys.
+/// An antenna model under construction: its inventory is set by several keys.
 struct AntennaDraft {
   RadioModel model;
   Gen2Reader gen2;

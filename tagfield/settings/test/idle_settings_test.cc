@@ -44,7 +44,7 @@ TEST(IdleSettings, AnInventorysAreIdleWithoutOne) {
     EXPECT_EQ(why({}, setting), "without inventory: gen2") << setting.key;
     EXPECT_EQ(why(kWithInventory, setting), "") << setting.key;
   }
-  // Whoever leaves an effect out knows that its settings are without effect.
+  // A user who disables an effect knows that its settings have no effect.
   EXPECT_EQ(why({{"inventory", "gen2", {}}, {"without", "inventory", {}}}, {"session", "s1", {}}),
             "");
 }
@@ -64,7 +64,7 @@ TEST(IdleSettings, OtherPathsAreIdleInALinkBudget) {
         << setting.key;
     EXPECT_EQ(why({}, setting), "") << setting.key;
   }
-  // They ask for what is so anyway.
+  // They request what applies anyway.
   EXPECT_EQ(why(PropagationModel::kLinkBudget, {}, {"reflection_order", "0", {}}), "");
   EXPECT_EQ(why(PropagationModel::kLinkBudget, {}, {"diffraction", "off", {}}), "");
 }

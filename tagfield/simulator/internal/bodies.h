@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Robots and obstacles as waves meet them.
+/// Robots and obstacles as seen by waves.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@
 
 namespace tagfield {
 
-/// A robot's body on its base frame B.
+/// A robot's body, in its base frame B.
 MovingBody body_of(const std::string& robot, const RobotBody& body, const RigidTransform& X_WB);
 
-/// Those obstacles that have a body and are there at `stamp`, where they are then.
+/// The obstacles that have a body and are present at `stamp`, at their positions then.
 std::vector<MovingBody> bodies_of(const std::vector<ObstacleSpec>& obstacles, Time stamp);
 
 }  // namespace tagfield

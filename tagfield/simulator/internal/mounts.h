@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where antennas and tags are by their specifications: on lifts, and by the rows of a recording.
+/// Poses of antennas and tags from their specifications: on lifts, or from the rows of a recording.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace tagfield {
 
-/// Whether it stays where it is: on no robot, without a lift, not recorded.
+/// Whether the antenna never moves: on no robot, without a lift, not recorded.
 bool is_fixed(const AntennaSpec& antenna);
 
-/// The row that holds at `stamp`; the first one before them all. `rows` must not be empty.
+/// The row valid at `stamp`; the first one if `stamp` is before it. `rows` must not be empty.
 const StampedPose& row_at(const Trajectory& rows, Time stamp);
 
 std::vector<Time> stamps_of(const Trajectory& rows);
 
-/// X_PA at `stamp`, the lift's height included.
+/// X_PA at `stamp`, including the lift's height.
 RigidTransform mount_at(const AntennaSpec& antenna, Time stamp);
 
 }  // namespace tagfield

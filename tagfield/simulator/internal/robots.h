@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A scenario's robots, each with whoever drives it.
+/// A scenario's robots, each with its driver.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,22 @@
 
 namespace tagfield {
 
-/// In the scenario's order. Throws Error where two have one name, and where none has the name of
-/// the one to be driven from outside.
+/// All robots, in the scenario's order. Throws Error if two have the same name, or if none has the
+/// name of the one to be driven remotely.
 std::vector<Robot> robots_of(const Scenario& scenario, std::uint64_t seed,
                              const SelfDriving* driving, const RemoteDriving* remote);
 
-/// None where there is no such robot.
+/// Null if there is no such robot.
 const Robot* robot_named(const std::vector<Robot>& robots, const std::string& name);
 
-/// Throws Error, at `location`, where a robot is named and there is no such robot.
+/// Throws Error, at `location`, if `name` is not empty and there is no such robot.
 void require_robot(const std::vector<Robot>& robots, const std::string& name,
                    const Location& location);
 
-/// Share done by the slowest, 0 to 1; 1 without robots.
+/// Progress of the slowest one, 0 to 1; 1 without robots.
 double progress_of(const std::vector<Robot>& robots);
 
-/// Path driven by all of them [m].
+/// Distance driven by all of them [m].
 double travelled_by(const std::vector<Robot>& robots);
 
 }  // namespace tagfield

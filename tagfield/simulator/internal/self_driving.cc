@@ -10,19 +10,19 @@
 namespace tagfield {
 namespace {
 
-/// What a place is drawn for.
-enum class PlaceDraw : std::uint64_t { kStart, kGoal, kCarried };
+/// What a random pose is drawn for.
+enum class PositionDraw : std::uint64_t { kStart, kGoal, kCarried };
 
-/// A robot that knows about where it is put.
+/// Uncertainty of a robot's pose after it was placed by hand.
 constexpr double kPlacedSigma_m = 0.02;
 constexpr double kPlacedSigma_rad = 0.01;
 
-/// A place that is drawn for this robot at this seed; `what` tells its draws apart.
-PlanarPose drawn_place(const NavigationWorld& world, const RobotSpec& robot, std::uint64_t seed,
-                       PlaceDraw what, std::uint64_t number) {
+/// A random pose for this robot and seed; `what` and `number` identify the draw.
+PlanarPose drawn_position(const NavigationWorld& world, const RobotSpec& robot, std::uint64_t seed,
+                          PositionDraw what, std::uint64_t number) {
   RandomStream stream(seed, Purpose::kPlaces, stream_key(robot.name),
                       static_cast<std::uint64_t>(what), number);
-  return random_place(world.floor, stream);
+  return random_position(world.floor, stream);
 }
 
 std::vector<PlanarPose> goals_of(const NavigationWorld& world, const RobotSpec& robot,
@@ -31,7 +31,7 @@ std::vector<PlanarPose> goals_of(const NavigationWorld& world, const RobotSpec& 
   std::vector<PlanarPose> goals = robot.goals_W;
   for (int i = 0; i < robot.random_goals; ++i) {
     goals.push_back(
-        drawn_place(world, robot, seed, PlaceDraw::kGoal, static_cast<std::uint64_t>(i)));
+        drawn_position(world, robot, seed, PositionDraw::kGoal, static_cast<std::uint64_t>(i)));
   }
   return goals;
 }
@@ -52,11 +52,11 @@ Robot self_driving_robot(const Scenario& scenario, RobotSpec robot, const SelfDr
   if (has_mapped) robot.start = driving.true_start;
   if (navigation_of(scenario).start != StartBelief::kKnown) start.reset();
   if (navigation_of(scenario).start == StartBelief::kRandom) {
-    robot.start = drawn_place(world, robot, seed, PlaceDraw::kStart, 0);
+    robot.start = drawn_position(world, robot, seed, PositionDraw::kStart, 0);
   }
   for (std::size_t i = 0; i < robot.carried.size(); ++i) {
     std::optional<PlanarPose>& to_W = robot.carried[i].to_W;
-    if (!to_W) to_W = drawn_place(world, robot, seed, PlaceDraw::kCarried, i);
+    if (!to_W) to_W = drawn_position(world, robot, seed, PositionDraw::kCarried, i);
   }
   auto driver = std::make_unique<SelfDriver>(navigation_of(scenario), robot.style.speed_m_s, world,
                                              *driving.map, driving.walls, start, goals, seed,

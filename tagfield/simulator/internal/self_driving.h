@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A robot that finds its way by itself, put into a run.
+/// A robot that navigates by itself, set up for a run.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@
 
 namespace tagfield {
 
-/// What a robot that finds its way by itself begins with.
+/// The initial state of a robot that navigates by itself.
 struct SelfDriving {
   const NavigationWorld* world = nullptr;
   const OccupancyGrid* map = nullptr;
-  const HitGrid* walls = nullptr;  ///< Where in the map's cells they are; null: nobody knows.
-  PlanarPose true_start;           ///< Of the robot that mapped; others begin where they are put.
-  PoseEstimate start;              ///< What that robot believes of it, where it is told.
+  const HitGrid* walls = nullptr;  ///< Positions of walls within the map's cells; null: unknown.
+  PlanarPose true_start;  ///< Of the robot that mapped; others start at their specified poses.
+  PoseEstimate start;     ///< That robot's belief of it, if its start is known.
 };
 
-/// What a robot believes that was put at `pose` by hand: within 2 cm and 0.6°, one sigma.
+/// Belief of a robot that was placed at `pose` by hand: within 2 cm and 0.6°, one sigma.
 PoseEstimate placed_at(const PlanarPose& pose);
 
-/// The robot, with places drawn where the scenario leaves them open. What `driving` points to must
+/// The robot, with random poses where the scenario leaves them open. What `driving` points to must
 /// outlive it.
 Robot self_driving_robot(const Scenario& scenario, RobotSpec robot, const SelfDriving& driving,
                          bool has_mapped, std::uint64_t seed);

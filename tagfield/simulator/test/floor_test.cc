@@ -15,7 +15,7 @@
 namespace tagfield {
 namespace {
 
-/// Two rooms of 3 m by 3 m side by side, x from -3 to 0 and from 0.2 to 3.2, with a door of
+/// Two rooms of 3 m by 3 m side by side, x from -3 to 0 and from 0.2 to 3.2, with a door of width
 /// `door_m` in the middle of the wall between them.
 Scene two_rooms(double door_m) {
   const double part = (3.0 - door_m) / 2.0;
@@ -49,7 +49,7 @@ TEST(ReachableFloor, GoesThroughDoorsThatAreWideEnough) {
 
 TEST(ReachableFloor, KeepsClearOfWalls) {
   const std::vector<Eigen::Vector2d> floor = floor_of(two_rooms(0.0), 0.5);
-  // What is left of 3 m by 3 m in cells of 5 cm, the grid's rounding beside.
+  // What is left of 3 m by 3 m in cells of 5 cm, apart from the grid's rounding.
   EXPECT_NEAR(static_cast<double>(floor.size()), 2.0 * 2.0 / (0.05 * 0.05), 180.0);
   for (const Eigen::Vector2d& p : floor) {
     EXPECT_GE(std::min({p.x() + 3.0, -p.x(), p.y() + 1.5, 1.5 - p.y()}), 0.5 - 1e-9);
@@ -69,7 +69,7 @@ TEST(ReachableFloor, MindsWhatIsLowAndWhatStands) {
 }
 
 TEST(ReachableFloor, BeginsNearTheStart) {
-  // 0.4 m from the wall a disc of 0.5 m does not fit, 0.1 m beside it does.
+  // A disc of 0.5 m does not fit 0.4 m from the wall, but does 0.1 m to the side.
   EXPECT_FALSE(floor_of(two_rooms(0.9), 0.5, {}, {-2.6, 0.0}).empty());
   EXPECT_TRUE(floor_of(two_rooms(0.9), 1.6).empty());
 }
@@ -80,7 +80,7 @@ TEST(RandomPlace, DrawsEachPlaceAsOftenAndAnyHeading) {
   std::map<int, int> quarters;
   for (std::uint64_t i = 0; i < 4000; ++i) {
     RandomStream stream(5, Purpose::kPlaces, 1, i);
-    const PlanarPose place = random_place(floor, stream);
+    const PlanarPose place = random_position(floor, stream);
     ++places[place.x];
     ++quarters[static_cast<int>(wrap_to_two_pi(place.yaw) / (kPi / 2.0))];
   }
@@ -90,7 +90,7 @@ TEST(RandomPlace, DrawsEachPlaceAsOftenAndAnyHeading) {
   for (const auto& [place, count] : places) EXPECT_NEAR(count, 1000, 110);
   for (const auto& [quarter, count] : quarters) EXPECT_NEAR(count, 1000, 110);
   RandomStream stream(5, Purpose::kPlaces);
-  EXPECT_THROW(random_place({}, stream), Error);
+  EXPECT_THROW(random_position({}, stream), Error);
 }
 
 }  // namespace

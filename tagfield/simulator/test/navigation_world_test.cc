@@ -89,7 +89,7 @@ TEST(NavigationWorld, NeedsAWorldAndSomewhereToGo) {
   EXPECT_EQ(complaint(scenario), "no complaint");
 }
 
-/// A given map that is all of one value is of no use.
+/// A given map with a single value everywhere is unusable.
 TEST(NavigationWorld, RefusesMapsWithoutWallsOrFloor) {
   OccupancyGrid map;
   map.width = map.height = 20;

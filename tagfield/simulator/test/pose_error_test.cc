@@ -20,7 +20,7 @@ std::vector<PoseError> sample_path(const PoseBelief& belief, std::uint64_t seed,
   return path;
 }
 
-/// Mean over 400 paths of the product of two errors, `lag` steps apart, from step `from` on.
+/// Mean over 4000 paths of the product of two errors, `lag` steps apart, from step `from` on.
 double covariance(const PoseBelief& belief, std::size_t from, std::size_t lag,
                   double PoseError::*component) {
   constexpr int kPaths = 4000;

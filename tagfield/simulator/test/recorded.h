@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Scenarios run from start to end, for tests of what came out.
+/// Scenarios run from start to end, for tests of the results.
 #pragma once
 
 #include <string>

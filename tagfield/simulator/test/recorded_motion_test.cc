@@ -130,7 +130,7 @@ tags:
   - {id: late, position: [1, -1, 1], appears_s: 2.0001}
 )";
 
-/// What a run wrote as truth, replayed without its robots, gives the run's reads to the last bit.
+/// A run's recorded ground truth, replayed without robots, reproduces its reads bit for bit.
 TEST(Replay, OfARunGivesItsReads) {
   write("scenario.yaml", kDriving);
   const Scenario scenario = load_scenario(temp("scenario.yaml"), {});

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kStep_s = 0.01;
 
-/// Wants one velocity until a time, then none, and keeps what it is told.
+/// Commands one velocity until a time, then none, and keeps what it receives.
 class Steady : public RemoteControl {
  public:
   Steady(const BodyVelocity& velocity, double until_s) : velocity_(velocity), until_s_(until_s) {}
@@ -67,8 +67,8 @@ TEST(RemoteDriver, DrivesAsFarAsItsLimitsLetIt) {
   const RemoteDriving driving = driving_by(control);
   Simulation simulation(scenario_of(10.0), 1, {}, nullptr, &driving);
   run_to_end(simulation);
-  // Up to 0.8 m/s in 1.6 s, and down in as long: v t, whatever the ramps. The first step of each
-  // ramp is one step ahead of the straight line.
+  // Up to 0.8 m/s in 1.6 s, and down in the same time: v t, whatever the ramps. The first step of
+  // each ramp is one step ahead of the straight line.
   const RigidTransform X_WB = simulation.robots().at(0).true_pose(0.0);
   EXPECT_NEAR(X_WB.translation.y(), -2.0 + 0.8 * 5.0, 1e-9);
   EXPECT_NEAR(X_WB.translation.x(), 3.0, 1e-9);
@@ -98,16 +98,16 @@ TEST(RemoteDriver, OdometryBeginsWhereTheRobotStarts) {
   run_to_end(simulation);
   EXPECT_EQ(control->reports.front().pose.x, 0.0);
   EXPECT_EQ(control->reports.front().pose.yaw, 0.0);
-  // Without noise the wheels tell the truth: forwards is +x of O, and +y of the world here.
+  // Without noise the odometry is true: forward is +x of O, which is +y of the world here.
   const Robot& robot = simulation.robots().at(0);
   EXPECT_NEAR(robot.believed_pose(0.0).translation.y(), robot.true_pose(0.0).translation.y(), 1e-9);
   EXPECT_NEAR(control->reports.back().pose.y, 0.0, 1e-9);
   EXPECT_GT(control->reports.back().pose.x, 1.0);
 }
 
-// 300 robots on a curve, with noise: errors over the stated covariance are χ² of 3 degrees of
-// freedom, and those of a velocity of one. Their means stray by √(2·3/300) = 0.14 and 0.08 (1 σ):
-// bounds are beyond 4 σ.
+// 300 robots on a curve, with noise: errors normalized by the stated covariance follow χ² with 3
+// degrees of freedom, and those of a velocity with one. Their means have standard deviations of
+// √(2·3/300) = 0.14 and 0.08: the bounds are beyond 4 σ.
 TEST(RemoteDriver, OdometryErrsAsItsCovarianceSays) {
   constexpr int kRobots = 300;
   double pose_sum = 0.0;

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// By points of the line that are a millimetre or so apart.
+/// Computed from points on the line that are about a millimetre apart.
 double distance_by_points(const RobotOutline& outline, const Eigen::Vector2d& a,
                           const Eigen::Vector2d& b) {
   double least = 1e9;
@@ -72,7 +72,7 @@ TEST(RobotClearance, MindsObstacles) {
   obstacles.rectangles = {{{0.0, 2.0}, {4.0, 2.0}, 0.0}};
   EXPECT_NEAR(clearance.distance({0.0, 0.5, 0.0}, obstacles), 0.3, 1e-12);
   EXPECT_EQ(clearance.distance({0.0, 2.0, 0.0}, obstacles), 0.0);
-  // A turned square's corner points at the robot.
+  // A rotated square's corner points at the robot.
   obstacles.rectangles = {{{2.0, 0.0}, {1.0, 1.0}, kPi / 4.0}};
   EXPECT_NEAR(clearance.distance({0.5, 0.0, 0.0}, obstacles), 2.0 - std::sqrt(0.5) - 0.8, 1e-12);
 }

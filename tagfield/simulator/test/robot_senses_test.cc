@@ -44,7 +44,7 @@ TEST(RobotSenses, WheelsTellTheWayFromTheirStart) {
   EXPECT_NEAR(way.yaw, true_way.yaw, 1e-9);
 }
 
-/// 2 m straight on, many times: the way errs by α3·√2.
+/// 2 m straight ahead, many times: the distance has a standard error of α3·√2.
 TEST(RobotSenses, WheelsErrAsStated) {
   const OdometryNoise noise{0.0, 0.0, 0.05, 0.0};
   double squares = 0.0;
@@ -80,7 +80,7 @@ TEST(RobotSenses, ScansComeAtTheirRateWithTheWheelsThen) {
   }
 }
 
-/// A scan that is swept while the robot turns is one of a single moment afterwards.
+/// A scan swept while the robot turns is converted to a single instant.
 TEST(RobotSenses, StraightenSweptScans) {
   LaserParameters laser = exact_laser();
   laser.sweep_s = 0.05;
@@ -104,11 +104,11 @@ TEST(RobotSenses, StraightenSweptScans) {
     const float off = scans[5].scan.ranges_m[i] - still.ranges_m[i];
     alike += static_cast<int>(std::abs(off) < 0.03F);
   }
-  // Beams at edges, and those that were turned out of view, differ.
+  // Beams at edges, and those that rotated out of view, differ.
   EXPECT_GT(alike, 150);
 }
 
-/// Carried away between two steps: the laser sees it, the wheels don't.
+/// Carried away between two steps: seen by the laser, not by the odometry.
 TEST(RobotSenses, WheelsDontNoticeACarrying) {
   RobotSenses senses(room(), exact_laser(), kNoNoise, 1, 1);
   senses.step({0.0, 0.0, 0.0}, {0.0, 0.0}, at(0.0), 0.05);

@@ -28,7 +28,7 @@ PoseEstimate about(const PlanarPose& pose) {
   return {pose, Eigen::Vector3d(4e-4, 4e-4, 1e-4).asDiagonal()};
 }
 
-/// A robot that drives by itself on the true map, and what it comes near to.
+/// A robot that drives by itself on the true map, and how close it comes to anything.
 struct Ride {
   Ride(const PlanarPose& start, const std::optional<PoseEstimate>& told,
        const std::vector<PlanarPose>& goals)
@@ -38,7 +38,7 @@ struct Ride {
     const BodyVelocity velocity =
         driver.step(truth, time_from_seconds(count * kDriveStep), kDriveStep);
     truth = advance(truth, velocity, kDriveStep);
-    was_lost = was_lost || !driver.knows_place();
+    was_lost = was_lost || !driver.knows_position();
     nearest_m = std::min(nearest_m, world().clearance.distance(truth, {}));
     ++count;
   }
@@ -59,7 +59,7 @@ struct Ride {
 TEST(GoalsAt, LookAlongTheWay) {
   const auto goals = goals_at({1.0, 0.0, 0.3}, {{1.0, 0.0}, {1.0, 2.0}, {0.0, 1.0}});
   ASSERT_EQ(goals.size(), 3U);
-  EXPECT_EQ(goals[0].yaw, 0.3);  // Nowhere to go: as it stands.
+  EXPECT_EQ(goals[0].yaw, 0.3);  // Nowhere to go: the heading stays.
   EXPECT_NEAR(goals[1].yaw, kPi / 2.0, 1e-12);
   EXPECT_NEAR(goals[2].yaw, -3.0 * kPi / 4.0, 1e-12);
   EXPECT_EQ(goals[2].x, 0.0);
@@ -68,7 +68,7 @@ TEST(GoalsAt, LookAlongTheWay) {
 TEST(SelfDriver, DrivesToOneGoalAfterAnother) {
   const std::vector<PlanarPose> goals{{1.5, 0.5, 0.0}, {0.0, -1.0, 1.0}};
   Ride ride({}, about({}), goals);
-  EXPECT_TRUE(ride.driver.knows_place());
+  EXPECT_TRUE(ride.driver.knows_position());
   ride.run(60.0);
   ASSERT_EQ(ride.driver.outcomes().size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -76,7 +76,7 @@ TEST(SelfDriver, DrivesToOneGoalAfterAnother) {
     EXPECT_EQ(outcome.state, DriveState::kReached) << outcome.reason;
     EXPECT_LT((position_of(outcome.truth_W) - position_of(goals[i])).norm(), 0.1);
     EXPECT_LT(std::abs(wrap_to_pi(outcome.truth_W.yaw - goals[i].yaw)), 0.1);
-    // Neither faster than 0.4 m/s, nor with more than as long again for turns.
+    // Not faster than 0.4 m/s, and without too much time for turns.
     EXPECT_GT(outcome.seconds, 1.5 / 0.4);
     EXPECT_LT(outcome.seconds, 25.0);
   }
@@ -98,12 +98,12 @@ TEST(SelfDriver, GoesOnWhereAGoalIsRefused) {
 
 TEST(SelfDriver, FindsItselfFirstWhereItWasNotTold) {
   Ride ride({1.2, -0.8, 2.0}, std::nullopt, {{-1.0, 0.5, 0.0}});
-  EXPECT_FALSE(ride.driver.knows_place());
+  EXPECT_FALSE(ride.driver.knows_position());
   ride.run(90.0);
   ASSERT_EQ(ride.driver.outcomes().size(), 1U);
   EXPECT_EQ(ride.driver.outcomes()[0].state, DriveState::kReached)
       << ride.driver.outcomes()[0].reason;
-  EXPECT_TRUE(ride.driver.knows_place());
+  EXPECT_TRUE(ride.driver.knows_position());
   EXPECT_LT(ride.error_m(), 0.05);
   EXPECT_GT(ride.nearest_m, 0.0);
 }
@@ -121,7 +121,7 @@ TEST(SelfDriver, FindsItselfAgainWhenCarriedAway) {
   EXPECT_GT(ride.nearest_m, 0.0);
 }
 
-/// On a map of another place there is no place to find: it gives up, with a reason.
+/// On the map of another place no pose can be found: the robot gives up, with a reason.
 TEST(SelfDriver, GivesUpSearchingInTheEnd) {
   OccupancyGrid elsewhere;
   elsewhere.width = elsewhere.height = 100;

@@ -47,7 +47,7 @@ double expected_phase(double distance) {
 
 TEST(Simulation, StampsReadsAtTheAntennasRateAndNotAtItsOwnSteps) {
   Scenario scenario = fixed_antenna_and_tag();
-  scenario.time_step_s = 0.01;  // no divisor of 1/15 s
+  scenario.time_step_s = 0.01;  // not a divisor of 1/15 s
   const Recording recording = recorded_run(scenario);
   ASSERT_EQ(recording.reads.size(), 30U);
   for (std::size_t k = 0; k < recording.reads.size(); ++k) {
@@ -100,7 +100,7 @@ TEST(Simulation, ARobotCarriesAntennaAndTag) {
     EXPECT_NEAR(pose.X_WA.translation.y(), driven + 0.5, 1e-9);
     EXPECT_NEAR(pose.X_WA.translation.z(), 1.5, 1e-9);
   }
-  // Load and antenna keep their distance √(0.5² + 0.5²).
+  // Load and antenna keep their distance of √(0.5² + 0.5²).
   for (const TrueDistance& distance : recording.truth.distances) {
     if (distance.tag == "load") {
       EXPECT_NEAR(distance.distance_m, std::sqrt(0.5), 1e-9);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A small world for tests of what robots do by themselves.
+/// A small world for tests of autonomous robots.
 #pragma once
 
 #include "tagfield/navigation/monte_carlo_localizer.h"
@@ -10,13 +10,14 @@
 
 namespace tagfield {
 
-/// An upright box by its middle and size [m]; `low` and `high` are its heights.
+/// An upright box given by centre and size [m]; `low` and `high` are the heights of its bottom and
+/// top.
 inline Collision box_at(double x, double y, double size_x, double size_y, double low = 0.0,
                         double high = 2.0) {
   return {"box", Box{{size_x, size_y, high - low}}, from_translation({x, y, 0.5 * (low + high)})};
 }
 
-/// A room of 6 m by 4 m about the origin, with boxes that make its corners differ.
+/// A room of 6 m by 4 m centred on the origin, with boxes that make its corners distinguishable.
 inline Scene small_room() {
   Scene scene;
   scene.collisions = {box_at(0.0, 2.1, 6.4, 0.2), box_at(0.0, -2.1, 6.4, 0.2),
@@ -26,7 +27,8 @@ inline Scene small_room() {
   return scene;
 }
 
-/// One robot by laser in small_room(), with a tag and an antenna that hardly cost anything.
+/// A robot that navigates by laser in small_room(), with a tag and an antenna that cost next to no
+/// time.
 inline Scenario small_drive() {
   Scenario scenario;
   scenario.name = "small_drive";
@@ -36,7 +38,7 @@ inline Scenario small_drive() {
   NavigationSpec& navigation = own_navigation(scenario);
   navigation.laser.beams = 181;
   navigation.laser.rate_hz = 15.0;
-  // Few particles and looks will do for a place as small as this.
+  // Few particles and updates suffice in a room this small.
   LocalizerSettings& localizer = navigation.localizer;
   localizer.first_particles = 3000;
   localizer.least_searching = 1000;

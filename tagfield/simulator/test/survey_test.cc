@@ -34,7 +34,7 @@ TEST(Survey, MapsARoomAndComesBack) {
   EXPECT_LT(position_of(made.survey.true_end_W).norm(), 0.15);
   EXPECT_LT((position_of(made.survey.end.pose_M) - position_of(made.survey.true_end_W)).norm(),
             0.05);
-  // A look each 0.1 s, and a way that is as long as its pieces.
+  // A sample every 0.1 s, and a path as long as the sum of its segments.
   ASSERT_EQ(made.survey.true_path.size(), made.survey.believed_path.size());
   double way_m = 0.0;
   for (std::size_t i = 1; i < made.survey.true_path.size(); ++i) {

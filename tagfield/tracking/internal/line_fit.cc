@@ -11,15 +11,15 @@
 namespace tagfield {
 namespace {
 
-constexpr double kNearest = 1e-3;     ///< Distances below are taken for this [m].
+constexpr double kNearest = 1e-3;     ///< Smaller distances are clamped to this [m].
 constexpr double kLeastNoise = 0.02;  ///< [rad]
-/// What is known of any motion at all, so that normal matrices have an inverse [m, m/s].
+/// Weak prior on any motion, so that normal matrices are invertible [m, m/s].
 constexpr double kAnywhere = 100.0;
 
 using Normal = CircularNormal<6>;
 using Row = CircularRow<6>;
 
-/// Of φ − k r.
+/// Linearizes φ − k r.
 Row linearize(const PassRead& read, const StraightMotion& motion) {
   const Eigen::Vector3d away = motion.p_WT + read.t_s * motion.v_WT - read.p_WA;
   const double r = std::max(away.norm(), kNearest);
@@ -66,7 +66,7 @@ Normal normal_at(const FitInput& input, const StraightMotion& motion) {
 }  // namespace
 
 std::vector<SubAperture> sub_apertures(const Pass& pass, double length_s) {
-  return stretches_of(
+  return intervals_of(
       pass.reads.size(), [&](std::size_t i) { return pass.reads[i].group; },
       [&](std::size_t i) { return pass.reads[i].t_s; }, length_s);
 }
@@ -86,7 +86,7 @@ MotionPrior motion_prior(const Pass& pass, const TrackingOptions& options) {
   const Eigen::Vector2d side(-std::sin(lane.heading_rad), std::cos(lane.heading_rad));
   prior.rows.block<1, 2>(8, 0) = side.transpose() / lane.lateral_sigma_m;
   prior.values(8) = side.dot(lane.point) / lane.lateral_sigma_m;
-  // A tag's direction is that far from the lane's at a usual speed, whatever its own.
+  // The heading sigma is applied at a typical speed, whatever the tag's own.
   const double speed = std::max(0.5 * (options.min_speed_m_s + options.max_speed_m_s), 0.1);
   prior.rows.block<1, 2>(9, 3) = side.transpose() / (speed * lane.heading_sigma_rad);
   return prior;

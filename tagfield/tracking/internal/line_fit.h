@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A tag on a straight line at constant speed: how well it explains a pass, and the fit of it.
+/// Straight motion of a tag at constant speed, fitted to a pass.
 #pragma once
 
 #include <vector>
 
-#include "tagfield/fit/stretches.h"
+#include "tagfield/fit/intervals.h"
 #include "tagfield/tracking/internal/pass.h"
 #include "tagfield/tracking/tracker.h"
 
@@ -17,19 +17,19 @@ struct StraightMotion {
   Eigen::Vector3d v_WT = Eigen::Vector3d::Zero();  ///< [m/s]
 };
 
-/// Reads that share one phase offset: places in Pass::reads.
-using SubAperture = ReadStretch;
+/// Reads that share one phase offset: indices into Pass::reads.
+using SubAperture = ReadInterval;
 
 /// Cuts a pass into sub-apertures of up to `length_s`, each of one antenna and channel.
 std::vector<SubAperture> sub_apertures(const Pass& pass, double length_s);
 
-/// Gaussian knowledge of a motion, as rows of A θ = b with weights: height, climb, lane.
+/// Gaussian prior of a motion, as weighted rows of A θ = b: height, climb, lane.
 struct MotionPrior {
-  Eigen::Matrix<double, 10, 6> rows;    ///< Each divided by its sigma; 0 where nothing is known.
-  Eigen::Matrix<double, 10, 1> values;  ///< Likewise.
+  Eigen::Matrix<double, 10, 6> rows;    ///< Each divided by its sigma; 0 if unknown.
+  Eigen::Matrix<double, 10, 1> values;  ///< Divided by the same sigmas.
 };
 
-/// What pass and options know.
+/// Prior from pass and options.
 MotionPrior motion_prior(const Pass& pass, const TrackingOptions& options);
 
 struct LineFit {
@@ -40,9 +40,10 @@ struct LineFit {
   double noise_rad = 0.0;                  ///< Of the residuals.
 };
 
-/// Maximum likelihood on wrapped phases, each sub-aperture with a phase offset of its own unless
-/// `fix_known` and its antenna's is known: minimizes Σ (1 − cos(φ_i − k_i |p(t_i) − a_i| − ψ))/σ²
-/// by damped Gauss-Newton steps from `start`. `noise_rad` weighs the phases against the prior.
+/// Maximum-likelihood fit to wrapped phases, with a separate phase offset for each sub-aperture
+/// unless `fix_known` is set and its antenna's offset is known: minimizes Σ (1 − cos(φ_i − k_i
+/// |p(t_i) − a_i| − ψ))/σ² by damped Gauss-Newton steps from `start`. `noise_rad` weighs the phases
+/// against the prior.
 LineFit fit_line(const Pass& pass, const std::vector<SubAperture>& apertures,
                  const MotionPrior& prior, double noise_rad, bool fix_known,
                  const StraightMotion& start);

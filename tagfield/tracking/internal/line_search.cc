@@ -12,18 +12,18 @@ namespace tagfield {
 namespace {
 
 constexpr double kShortest = 0.3;         ///< First sub-apertures [s].
-constexpr std::size_t kMostLookups = 40;  ///< Sub-apertures that the grid is judged by.
+constexpr std::size_t kMostLookups = 40;  ///< Maximum number of sub-apertures for scoring the grid.
 constexpr std::size_t kFewestInAperture = 3;
 constexpr std::size_t kCoarseHypotheses = 40;
 constexpr double kSpeedStep = 0.15;  ///< [m/s]
 constexpr double kHeadingStep = radians(10.0);
 constexpr double kPlaceStep = 0.25;  ///< [m]
 constexpr double kLaneStep = 0.12;   ///< Along a lane [m].
-/// Coherence over longer sub-apertures may fall to this part of what it was over the shortest.
+/// Minimum coherence over longer sub-apertures, relative to the shortest.
 constexpr double kStaysCoherent = 0.85;
-constexpr double kFlat = 0.03;  ///< Antennas within this of a plane are in it [m].
+constexpr double kFlat = 0.03;  ///< Antennas within this of a plane (rms) lie in it [m].
 
-/// How well each range rate explains one sub-aperture.
+/// Coherent sum of one sub-aperture for each range rate.
 struct RateTable {
   double t_s = 0.0;
   Eigen::Vector3d p_WA;
@@ -51,7 +51,7 @@ RateTable table_of(const Pass& pass, const SubAperture& aperture, double max_rat
   const PassRead& middle = pass.reads[aperture[aperture.size() / 2]];
   table.p_WA = middle.p_WA;
   table.v_WA = middle.v_WA;
-  // An eighth of the lobe's width, so that a look-up between two rows loses little.
+  // An eighth of the lobe's width, so that interpolation between two rows loses little.
   table.step = kTwoPi / (middle.k * kShortest) / 8.0;
   table.least_rate = -max_rate;
   const auto rows = static_cast<std::size_t>(2.0 * max_rate / table.step) + 2;
@@ -77,7 +77,7 @@ double look_up(const RateTable& table, double rate) {
          part * static_cast<double>(table.power[row + 1]);
 }
 
-/// Evenly thinned to what the grid can bear.
+/// Tables of sub-apertures, evenly thinned to limit the work for the grid.
 std::vector<RateTable> rate_tables(const Pass& pass, const TrackingOptions& options) {
   std::vector<SubAperture> apertures = sub_apertures(pass, kShortest);
   apertures.erase(
@@ -151,7 +151,7 @@ Grid open_grid(const Pass& pass, const TrackingOptions& options) {
     }
   }
   for (const double v : steps(options.min_speed_m_s, options.max_speed_m_s, kSpeedStep)) {
-    // Steps of heading no finer than those of speed.
+    // Heading steps are no finer than speed steps.
     const double step = std::max(kHeadingStep, std::min(kSpeedStep / v, kPi / 3.0));
     const int count = static_cast<int>(std::ceil(kTwoPi / step));
     for (int i = 0; i < count; ++i) {
@@ -162,12 +162,12 @@ Grid open_grid(const Pass& pass, const TrackingOptions& options) {
   return grid;
 }
 
-/// Whether two motions are one and the same to the grid.
+/// Whether two motions are the same within these tolerances.
 bool alike(const StraightMotion& a, const StraightMotion& b, double place_m, double speed_m_s) {
   return (a.p_WT - b.p_WT).norm() < place_m && (a.v_WT - b.v_WT).norm() < speed_m_s;
 }
 
-/// The best of each place's velocities, then the best that are unlike each other.
+/// The best velocities of each position, then the best distinct ones.
 std::vector<StraightMotion> coarse_hypotheses(const Pass& pass, const TrackingOptions& options) {
   const std::vector<RateTable> tables = rate_tables(pass, options);
   const Grid grid =
@@ -198,7 +198,7 @@ std::vector<StraightMotion> coarse_hypotheses(const Pass& pass, const TrackingOp
   return chosen;
 }
 
-/// Those with likelihood, best first, without repeats, `most` of them.
+/// Keeps at most `most` hypotheses, best first, without duplicates.
 void keep_best(std::vector<LineHypothesis>& hypotheses, std::size_t most) {
   std::stable_sort(hypotheses.begin(), hypotheses.end(), [](const auto& a, const auto& b) {
     return a.log_likelihood > b.log_likelihood;
@@ -257,7 +257,7 @@ std::vector<StraightMotion> motions_of(const std::vector<LineHypothesis>& hypoth
   return motions;
 }
 
-/// Doubles the sub-apertures while the phase stays coherent over them.
+/// Doubles the length of the sub-apertures while the phase stays coherent.
 std::vector<LineHypothesis> refined(const Pass& pass, const TrackingOptions& options,
                                     std::vector<LineHypothesis> hypotheses) {
   const double duration = duration_of(pass);
@@ -287,7 +287,7 @@ std::vector<StraightMotion> mirror_images(const Pass& pass, const StraightMotion
     spread += d * d.transpose() / static_cast<double>(pass.reads.size());
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
-  solver.computeDirect(spread);  // Iterating takes seconds to compile.
+  solver.computeDirect(spread);  // The iterative solver takes seconds to compile.
   if (solver.eigenvalues()(0) > kFlat * kFlat) return {};
   Eigen::Vector2d normal = solver.eigenvectors().col(0);
   if (solver.eigenvalues()(1) <= kFlat * kFlat) {
@@ -309,7 +309,7 @@ std::vector<LineHypothesis> search_lines(const Pass& pass, const TrackingOptions
   keep_best(hypotheses, kCoarseHypotheses);
   hypotheses = refined(pass, options, std::move(hypotheses));
   if (hypotheses.empty()) return {};
-  // Once more with the best one's noise, so that likelihoods can be compared, with mirror images.
+  // Fits again with the best one's noise, to make likelihoods comparable, and with mirror images.
   std::vector<StraightMotion> starts = motions_of(hypotheses);
   const std::size_t count = std::min<std::size_t>(starts.size(), most);
   for (std::size_t i = 0; i < count; ++i) {

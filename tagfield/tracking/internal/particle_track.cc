@@ -14,9 +14,10 @@
 namespace tagfield {
 namespace {
 
-/// How much of a particle stays its own when it is spread; 1 − the square of it is drawn anew.
+/// Shrinkage of the kernel: share a of a particle's deviation that is kept; 1 − a² of the variance
+/// is redrawn.
 constexpr double kOwnPart = 0.95;
-/// Part of the reads that may be anything at all.
+/// Share of reads with arbitrary phase.
 constexpr double kAnythingShare = 0.01;
 
 struct Gaussian {
@@ -24,18 +25,18 @@ struct Gaussian {
   Matrix6d covariance = Matrix6d::Identity();
 };
 
-/// One column a particle: place, velocity, mean of each antenna's offset.
+/// One column per particle: position, velocity, mean of each antenna's offset.
 struct Cloud {
   Eigen::MatrixXd states;
   Eigen::VectorXd log_weights;
   Eigen::VectorXd weights;
-  std::vector<double> offset_variance;  ///< The same for all particles; below 0: not known yet.
-  std::vector<std::size_t> group;       ///< That the offset stands for, by antenna.
+  std::vector<double> offset_variance;  ///< The same for all particles; negative: not known yet.
+  std::vector<std::size_t> group;       ///< Group of the current offset, by antenna.
 };
 
 struct Filtered {
-  std::vector<Gaussian> after;   ///< Each read was taken in.
-  std::vector<Gaussian> before;  ///< It was.
+  std::vector<Gaussian> after;   ///< After the update with each read.
+  std::vector<Gaussian> before;  ///< Before it.
   double log_likelihood = 0.0;
 };
 
@@ -81,7 +82,7 @@ void predict(const TrackingOptions& options, double time_s, RandomStream& stream
   Eigen::VectorXd draw(6);
   for (Eigen::Index i = 0; i < cloud.states.cols(); ++i) {
     fill_normal(stream, draw);
-    // Backward in time the noise of place and velocity go the other way together.
+    // Backward in time, position and velocity noise are correlated with the opposite sign.
     Eigen::VectorXd noise = root * draw;
     if (time_s < 0.0) noise.tail<3>() *= -1.0;
     cloud.states.col(i).head<3>() += time_s * cloud.states.col(i).segment<3>(3);
@@ -89,7 +90,8 @@ void predict(const TrackingOptions& options, double time_s, RandomStream& stream
   }
 }
 
-/// Adds one read's likelihood to the weights; what the mean weight gained, as a logarithm.
+/// Multiplies the weights by one read's likelihood. Returns the logarithm of the mean weight's
+/// gain.
 double weigh(const PassRead& read, double noise_rad, Cloud& cloud) {
   const std::size_t antenna = read.antenna;
   const Eigen::Index row = 6 + static_cast<Eigen::Index>(antenna);
@@ -102,7 +104,7 @@ double weigh(const PassRead& read, double noise_rad, Cloud& cloud) {
     const double angle = read.phase_rad - read.k * (state.head<3>() - read.p_WA).norm();
     if (fresh && !read.offset_known) {
       if (i == 0) reference = angle;
-      // All about the first one's, so that means and covariances of offsets have a meaning.
+      // All near the first one, so that means and covariances of offsets are meaningful.
       state(row) = reference + wrap_to_pi(angle - reference);
       continue;
     }
@@ -128,7 +130,7 @@ double weigh(const PassRead& read, double noise_rad, Cloud& cloud) {
   return gain;
 }
 
-/// Systematic resampling where fewer than half of the particles count, then the kernel.
+/// Systematic resampling if fewer than half of the particles are effective, then the kernel.
 void resample(RandomStream& stream, Cloud& cloud) {
   const auto count = static_cast<double>(cloud.weights.size());
   if (1.0 / cloud.weights.squaredNorm() > 0.5 * count) return;
@@ -152,7 +154,7 @@ void resample(RandomStream& stream, Cloud& cloud) {
   cloud.weights.setConstant(1.0 / count);
 }
 
-/// In the order of `order`: rising for forward, falling for backward.
+/// Filters the reads in the order of `order`: ascending for forward, descending for backward.
 Filtered run_filter(const Pass& pass, const TrackingOptions& options, const Gaussian& start,
                     double noise_rad, const std::vector<std::size_t>& order, std::uint64_t sense) {
   const std::uint64_t tag = stream_key(pass.tag);
@@ -185,20 +187,20 @@ Gaussian carried(const Gaussian& start, double time_s) {
   return {transition * start.mean, transition * start.covariance * transition.transpose()};
 }
 
-/// What both filters know, with what they knew before any read counted once.
+/// Fusion of both filters, with their common prior counted once.
 Gaussian joined(const Gaussian& forward, const Gaussian& backward, const Gaussian& prior) {
   const Matrix6d a = inverse(forward.covariance);
   const Matrix6d b = inverse(backward.covariance);
   const Matrix6d c = inverse(prior.covariance);
   const Matrix6d information = a + b - c;
-  // Where chance makes a cloud wider than what it began with, the forward filter has to do.
+  // If a cloud is by chance wider than the prior, only the forward filter is used.
   if (!cholesky_factor(information)) return forward;
   return {
       solve_symmetric(information, Vector6d(a * forward.mean + b * backward.mean - c * prior.mean)),
       invert_symmetric(information)};
 }
 
-/// Residuals of each antenna's reads about their own circular mean.
+/// Adds residuals of each group's reads around their circular mean.
 void add_residuals(const Pass& pass, const std::vector<Gaussian>& states, Track& track) {
   std::vector<double> angles;
   std::map<std::size_t, CircularMean> means;

@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-/// Velocity of the antenna between the neighbours of sample i; 0 where it stands [m/s].
+/// Velocity of the antenna between the neighbours of sample i [m/s]; 0 if it is stationary.
 Eigen::Vector3d antenna_velocity(const std::vector<PhaseSample>& series, std::size_t i) {
   const PhaseSample& before = series[i > 0 ? i - 1 : i];
   const PhaseSample& after = series[std::min(i + 1, series.size() - 1)];
@@ -18,7 +18,7 @@ Eigen::Vector3d antenna_velocity(const std::vector<PhaseSample>& series, std::si
   return (after.p_WA - before.p_WA) / time;
 }
 
-/// All reads, stamped since the epoch in `stamp` only.
+/// All reads in time order; `t_s` is not set yet.
 void gather(const LocalizationProblem& problem, const SamplesOfTag& samples, Pass& pass) {
   std::map<std::pair<std::size_t, double>, std::size_t> groups;
   for (const auto& [antenna, series] : samples) {
@@ -38,7 +38,7 @@ void gather(const LocalizationProblem& problem, const SamplesOfTag& samples, Pas
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
 }
 
-/// Keeps the piece with most reads.
+/// Keeps the piece with the most reads.
 void cut_at_gaps(double max_gap_s, Pass& pass) {
   const Duration longest = duration_from_seconds(max_gap_s);
   std::size_t best = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// All reads of one tag in order of time, as tracking looks at them.
+/// All reads of one tag in time order, prepared for tracking.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ struct PassRead {
   bool offset_known = false;  ///< ψ = 0.
 };
 
-/// What is known of the tag's height.
+/// Prior of the tag's height.
 struct HeightPrior {
   double mean_m = 0.0;
   double sigma_m = 0.0;
@@ -34,22 +34,21 @@ struct HeightPrior {
 struct Pass {
   std::string tag;
   Time origin;                  ///< Halfway between the first and the last read.
-  std::vector<PassRead> reads;  ///< In rising order of time.
+  std::vector<PassRead> reads;  ///< In time order.
   std::vector<std::string> antennas;
   std::size_t groups = 0;
   HeightPrior height;
-  std::size_t cut_off = 0;  ///< Reads beyond a gap too long, left out.
+  std::size_t cut_off = 0;  ///< Reads left out because of too long a gap.
 };
 
-/// The reads of `tag`; of pieces with gaps longer than `max_gap_s` between them the one with most
-/// reads.
+/// The reads of `tag`; if they have gaps longer than `max_gap_s`, the piece with the most reads.
 Pass make_pass(const LocalizationProblem& problem, const std::string& tag,
                const TrackingOptions& options);
 
 /// From the first read to the last [s].
 double duration_of(const Pass& pass);
 
-/// Mean of the antennas' places, by reads [m].
+/// Mean antenna position over the reads [m].
 Eigen::Vector3d middle_of_antennas(const Pass& pass);
 
 }  // namespace tagfield

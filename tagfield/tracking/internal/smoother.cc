@@ -17,28 +17,28 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostOffsets = 12;    ///< More, and those of an antenna take turns.
-constexpr double kAnyOffset = 100.0;        ///< Variance of an offset that nothing is known of.
-constexpr double kKnownOffset = 1e-6;       ///< Of one that is known.
-constexpr int kPasses = 4;                  ///< After the last jump was found.
-constexpr int kPassesBefore = 3;            ///< Any is looked for, so that the track has settled.
-constexpr int kMostJumps = 4;               ///< Times that they are looked for.
+constexpr std::size_t kMostOffsets = 12;    ///< With more, channels of an antenna share a slot.
+constexpr double kAnyOffset = 100.0;        ///< Variance of an unknown offset.
+constexpr double kKnownOffset = 1e-6;       ///< Variance of a known offset.
+constexpr int kPasses = 4;                  ///< Iterations after the last jump was found.
+constexpr int kPassesBefore = 3;            ///< Iterations to settle before jumps are searched.
+constexpr int kMostJumps = 4;               ///< Maximum number of searches that find jumps.
 constexpr double kNearestApproach = 1e-3;   ///< [m]
 constexpr double kLeastMotionNoise = 0.02;  ///< [rad]
-/// Directions in which less than this part of the most is known are not known at all.
+/// Directions with less information than this, relative to the largest, are unknown.
 constexpr double kUnknown = 1e-9;
-constexpr std::size_t kJumpSpan = 6;  ///< Reads before and after that tell a jump.
+constexpr std::size_t kJumpSpan = 6;  ///< Reads before and after a jump used to detect it.
 constexpr double kLeastJump = 0.8;    ///< [rad]
 
-/// Which entry of the state holds a read's offset, and whether it begins anew there.
+/// State entry that holds each read's offset, and whether the offset is reset there.
 struct Slots {
   std::vector<Eigen::Index> of_read;
   std::vector<char> fresh;
   Eigen::Index size = 6;
 };
 
-/// One read's. From the step before, places moved on with their velocities for `time_s`, and the
-/// offset in `begins` forgot what it was; it is −1 where none did.
+/// Filter step of one read. Since the previous step, positions advanced with their velocities for
+/// `time_s`, and the offset in `begins` was reset (−1: none).
 struct Step {
   double time_s = 0.0;
   Eigen::Index begins = -1;
@@ -53,14 +53,15 @@ struct Smoothed {
   std::vector<Eigen::MatrixXd> covariance;
 };
 
-/// k |p − a| near a point: `value` + slope (p − point), with what that leaves as variance.
+/// Linearization of k |p − a| near a point: `value` + slope (p − point), with the variance of the
+/// linearization error.
 struct Linear {
   double value = 0.0;
   Eigen::RowVector3d slope;
   double variance = 0.0;
 };
 
-/// What stays the same over the iterations.
+/// Constant over the iterations.
 struct Input {
   const Pass& pass;
   const TrackingOptions& options;
@@ -93,7 +94,7 @@ Linear by_taylor(const PassRead& read, const Eigen::Vector3d& place) {
   return {read.k * r, read.k / r * away.transpose(), 0.0};
 }
 
-/// Regression over 2n + 1 sigma points of the place, κ = 0 (Julier and Uhlmann 2004, for n = 3).
+/// Regression over 2n + 1 sigma points of the position, κ = 0 (Julier and Uhlmann 2004, for n = 3).
 Linear by_sigma_points(const PassRead& read, const Eigen::Vector3d& place,
                        const Eigen::Matrix3d& covariance) {
   const std::optional<Eigen::Matrix3d> root = cholesky_factor(covariance);
@@ -137,7 +138,7 @@ void predict(const Input& input, Step& step, Eigen::VectorXd& mean, Eigen::Matri
   covariance.topLeftCorner<6, 6>() += process_noise(input.options, step.time_s);
 }
 
-/// The offset in `slot` is as unknown as before the first read.
+/// Resets the offset in `slot` to its prior.
 void begin_anew(const PassRead& read, Eigen::Index slot, double guess, Step& step,
                 Eigen::VectorXd& mean, Eigen::MatrixXd& covariance) {
   step.begins = slot;
@@ -151,17 +152,18 @@ struct Innovation {
   double value = 0.0;
   double variance = 1.0;
   Eigen::VectorXd with_state;  ///< Its covariance with the state.
-  double residual = 0.0;       ///< At the point that it was made linear at.
+  double residual = 0.0;       ///< At the linearization point.
 };
 
-/// About the prediction, or about an earlier iteration's smoothed state.
+/// Innovation linearized around `about`: the prediction, or the smoothed state of an earlier
+/// iteration.
 Innovation innovation_of(const Input& input, const PassRead& read, Eigen::Index slot,
                          const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance,
                          const Eigen::VectorXd& about, const Eigen::MatrixXd& spread,
                          double noise_rad) {
   const Linear linear = linear_at(input, read, about, spread);
   Innovation innovation;
-  const Eigen::Vector3d slope = linear.slope.transpose();  // In the place; in the offset it is 1.
+  const Eigen::Vector3d slope = linear.slope.transpose();  // By position; by offset it is 1.
   innovation.residual = wrap_to_pi(read.phase_rad - linear.value - about(slot));
   innovation.value =
       innovation.residual + slope.dot((about - mean).head<3>()) + about(slot) - mean(slot);
@@ -262,7 +264,7 @@ std::vector<double> residuals_of(const Pass& pass, const Slots& slots, const Smo
   return residuals;
 }
 
-/// Of the residuals of `series` from `begin` to before `end`.
+/// Circular mean of the residuals of `series` in [begin, end).
 double mean_residual(const std::vector<double>& residuals, const std::vector<std::size_t>& series,
                      std::size_t begin, std::size_t end) {
   CircularMean mean;
@@ -270,8 +272,8 @@ double mean_residual(const std::vector<double>& residuals, const std::vector<std
   return mean.value();
 }
 
-/// Where residuals of one slot jump most, beyond what noise does, its offset begins anew. Whether
-/// there was such a place.
+/// Resets the offset of a slot at the largest jump of its residuals, if beyond noise. Returns
+/// whether there was any.
 bool split_at_jumps(const Pass& pass, const std::vector<double>& residuals, double noise_rad,
                     Slots& slots) {
   std::map<Eigen::Index, std::vector<std::size_t>> series;
@@ -302,8 +304,8 @@ std::size_t count_fresh(const Slots& slots) {
   return static_cast<std::size_t>(std::count(slots.fresh.begin(), slots.fresh.end(), 1));
 }
 
-/// Logarithm of the density of a motion before any read: what is known of it, and in all other
-/// directions even over what the options allow.
+/// Logarithm of the prior density of a motion: Gaussian where known, uniform over the range of the
+/// options in all other directions.
 double log_prior(const Pass& pass, const TrackingOptions& options, const Vector6d& motion) {
   const MotionPrior prior = motion_prior(pass, options);
   const SymmetricEigen<6> known = symmetric_eigen(Matrix6d(prior.rows.transpose() * prior.rows));
@@ -321,9 +323,9 @@ double log_prior(const Pass& pass, const TrackingOptions& options, const Vector6
   return log_density;
 }
 
-/// The filter's evidence is that of its start, which reads have narrowed already; here it becomes
-/// that of all that may have been. An offset may be anywhere in a turn, a jump at any read, and the
-/// noise anywhere between the least that is believed and phases as good as random.
+/// Converts the filter's evidence, which is relative to a start already narrowed by the reads, to
+/// the full prior: an offset uniform over a turn, a jump at any read, and the noise anywhere
+/// between the assumed minimum and nearly random phases.
 double evidence_of(const Input& input, const Slots& slots, const Forward& forward,
                    const Smoothed& smoothed) {
   const auto count = static_cast<double>(input.pass.reads.size());
@@ -438,7 +440,7 @@ Track smooth(const Pass& pass, const TrackingOptions& options, Linearization lin
     if (iteration >= kPassesBefore && splits < kMostJumps &&
         split_at_jumps(pass, residuals, noise, slots)) {
       ++splits;
-      smoothed = {};  // Its offsets know nothing of the jump.
+      smoothed = {};  // Its offsets do not reflect the jump.
     }
   }
   Track track = track_of(pass, forward, smoothed, residuals);

@@ -2,9 +2,9 @@
 /// @file
 /// Kalman filter and smoother of one pass, on wrapped phases.
 ///
-/// State: place and velocity of the tag and a phase offset ψ for each antenna (or each antenna and
-/// channel). Motion is of nearly constant velocity: p' = v, v' = white acceleration in x and y with
-/// power density q². Phases are taken as φ = ψ + 4π/λ |p − a| + noise; innovations are wrapped.
+/// State: position and velocity of the tag and a phase offset ψ for each antenna (or each antenna
+/// and channel). Nearly-constant-velocity motion: p' = v, v' = white acceleration in x and y with
+/// power density q². Phases are modelled as φ = ψ + 4π/λ |p − a| + noise; innovations are wrapped.
 #pragma once
 
 #include <vector>
@@ -15,36 +15,36 @@
 
 namespace tagfield {
 
-/// How the phase is made linear in the state.
+/// How the phase is linearized in the state.
 enum class Linearization {
-  kTaylor,       ///< Slopes at one point: the extended Kalman filter.
-  kSigmaPoints,  ///< Slopes over the spread of the state: the unscented Kalman filter.
+  kTaylor,       ///< Derivatives at one point: extended Kalman filter.
+  kSigmaPoints,  ///< Regression over the spread of the state: unscented Kalman filter.
 };
 
-/// Where the filter begins, and what the phases are measured with.
+/// Initial state of the filter, and the phase noise.
 struct SmootherStart {
-  Vector6d mean = Vector6d::Zero();   ///< What is known before any read, at the first one.
-  Vector6d guess = Vector6d::Zero();  ///< Where the first iteration is to begin.
+  Vector6d mean = Vector6d::Zero();   ///< Prior at the time of the first read.
+  Vector6d guess = Vector6d::Zero();  ///< Start of the first iteration.
   Matrix6d covariance = Matrix6d::Identity();
   double noise_rad = 0.1;
 };
 
 /// Filters forward, smooths backward (Rauch, Tung and Striebel), then repeats both with each phase
-/// made linear about the smoothed track, which also decides its turns; in between, the offset of
-/// an antenna begins anew where its residuals jump, and the noise is taken from the residuals
-/// unless `keep_noise`. With Taylor slopes and no process noise this is Gauss-Newton's way to the
-/// maximum a posteriori (Bell, SIAM J. Optim. 1994).
+/// linearized around the smoothed track, which also resolves its whole turns. In between, an
+/// antenna's offset is reset where its residuals jump, and the noise is estimated from the
+/// residuals unless `keep_noise`. With Taylor linearization and no process noise, this is the
+/// Gauss-Newton iteration to the maximum a posteriori (Bell, SIAM J. Optim. 1994).
 Track smooth(const Pass& pass, const TrackingOptions& options, Linearization linearization,
              const SmootherStart& start, bool keep_noise = false);
 
-/// A start from a straight motion: what is known beforehand, with what the reads tell of it at
-/// `wider` times its spread (so that they count twice but for 1/wider²), and what process noise may
-/// add over the pass.
+/// Start from a straight motion: the prior, combined with the information from the reads at `wider`
+/// times its standard deviation (so that only 1/wider² of it is counted twice), plus the process
+/// noise over the pass.
 SmootherStart start_from(const Pass& pass, const TrackingOptions& options,
                          const LineHypothesis& hypothesis, double wider = 10.0);
 
-/// Root of the horizontal covariance's trace where the track is nearest to an antenna of the pass
-/// [m].
+/// Square root of the horizontal covariance's trace at the track's closest approach to an antenna
+/// of the pass [m].
 double expected_error(const Pass& pass, const Track& track);
 
 /// Covariance that white acceleration in x and y adds to (p, v) in `time_s`.

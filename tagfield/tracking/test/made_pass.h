@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tags on the move past antennas at rest, made for the tests of this room by no code of the
-/// simulator: eq. (3) of the paper with normal phase noise.
+/// Tags moving past stationary antennas, generated for this room's tests without any simulator
+/// code: eq. (3) of the paper with normal phase noise.
 #pragma once
 
 #include <cmath>

@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-/// Along x at 2 m/s from x = −1 at t = 10 s, a point each 0.1 s, y = 0.5; σx 10 mm, σvx 0.1 m/s.
+/// Along x at 2 m/s from x = −1 at t = 10 s, a point every 0.1 s, y = 0.5; σx 10 mm, σvx 0.1 m/s.
 Track belt_track() {
   Track track;
   for (int i = 0; i <= 10; ++i) {
@@ -33,8 +33,8 @@ TEST(Passing, CrossesALineWhereItIs) {
 }
 
 TEST(Passing, ASlantedLineIsCrossedWhereTheTrackMeetsIt) {
-  // Through the origin at 45°: met at x = y = 0.5. Across it the place is known to 10 mm / √2, and
-  // the speed is 2 m/s / √2.
+  // Through the origin at 45°: crossed at x = y = 0.5. Normal to it, the position is known to 10 mm
+  // / √2, and the speed is 2 m/s / √2.
   const auto passing = passing_of(belt_track(), {{0.0, 0.0}, kPi / 4.0});
   ASSERT_TRUE(passing);
   EXPECT_NEAR(to_seconds(passing->stamp), 10.75, 1e-9);
@@ -51,7 +51,7 @@ TEST(Passing, NearestIsAtTheFootOfThePerpendicular) {
   const auto passing = nearest_of(belt_track(), {0.41, 2.0, 1.2});
   ASSERT_TRUE(passing);
   EXPECT_NEAR(to_seconds(passing->stamp), 10.705, 1e-9);
-  // There p − a has no part along v.
+  // There, p − a is perpendicular to v.
   EXPECT_NEAR(passing->sigma_s, 0.005, 1e-9);
 }
 

@@ -41,8 +41,8 @@ LineHypothesis best_line(const MadePass& made) {
   return search_lines(made.pass, made.options, 3).at(0);
 }
 
-/// Least squares over x, y, vx, vy at the pass's origin and two offsets, by differences of a
-/// prediction written anew here. Begins at the truth, so that no turn can be wrong.
+/// Independent least squares over x, y, vx, vy at the pass's origin and two offsets, with numerical
+/// derivatives. Starts at the ground truth, so that no turn can be wrong.
 struct Batch {
   Eigen::Vector4d motion;
   Eigen::Matrix4d covariance;
@@ -130,7 +130,7 @@ TEST(Smoother, SurvivesReadsThatBelongNowhereAndAJumpOfTheOffset) {
   made::Rng rng(5);
   for (PassRead& read : made.pass.reads) {
     if (made::uniform(rng, 0.0, 1.0) < 0.05) read.phase_rad = made::uniform(rng, 0.0, kTwoPi);
-    // As of a reader whose oscillator locked anew.
+    // As when the reader's oscillator relocks.
     if (read.antenna == 0 && read.t_s > 0.4) {
       read.phase_rad = wrap_to_two_pi(read.phase_rad + 2.0);
     }
@@ -147,7 +147,7 @@ TEST(Smoother, SurvivesReadsThatBelongNowhereAndAJumpOfTheOffset) {
 }
 
 TEST(Smoother, FollowsATagThatChangesItsSpeed) {
-  // From 0.8 to 1.2 m/s within a second: 0.4 m/s², far from straight and even.
+  // From 0.8 to 1.2 m/s within a second: 0.4 m/s², far from constant velocity.
   made::Gate gate;
   gate.rate_hz = 60.0;
   MadePass made = made_pass(3, gate);
@@ -162,7 +162,7 @@ TEST(Smoother, FollowsATagThatChangesItsSpeed) {
   made.pass = make_pass(made::problem_of(gate, reads, kBelt), kTag, made.options);
   const Track track = smooth(made.pass, made.options, Linearization::kTaylor,
                              start_from(made.pass, made.options, best_line(made)));
-  // So unsteady a motion leaves more unknown; the covariance has to say so.
+  // Such an unsteady motion is known less precisely; the covariance must reflect that.
   EXPECT_GT(track.coherence, 0.98);
   for (const TrackPoint& point : track.points) {
     const double error = point.p_WT.x() - made.truth(made::seconds_of(point.stamp)).x();

@@ -23,7 +23,7 @@ TrackingOptions belt_options() {
 
 using Motions = std::map<std::string, made::Motion>;
 
-/// Tags 0.2 m apart along x, a few cm to the side at random, each through the gate.
+/// Tags 0.2 m apart along x, with random lateral offsets of a few cm, each moving through the gate.
 struct Belt {
   std::vector<TagRead> reads;
   Motions truth;
@@ -139,7 +139,7 @@ TEST(Tracker, OfManyNoisyTagsTheOrderIsRight) {
 }
 
 TEST(Tracker, CovariancesAreHonest) {
-  // Tags that truly do what the model says: white acceleration of this density.
+  // Tags that follow the model exactly: white acceleration of this density.
   constexpr double kNoise = 0.02;
   constexpr int kTracks = 50;
   TrackingOptions options = belt_options();
@@ -172,7 +172,7 @@ TEST(Tracker, CovariancesAreHonest) {
     std::vector<TagRead> reads;
     made::read_motion(gate, "tag", motion, 0.0, 12.0, rng, reads);
     const auto tracks = tracks_of(gate, reads, options);
-    // Of such tags some turn so far that their mirror image might be meant.
+    // Some of these tags turn so far that they cannot be distinguished from their mirror image.
     if (tracks.front().verdict != TrackVerdict::kTracked) continue;
     ++tracked;
     const auto& points = tracks.front().tracks.front().points;
@@ -195,7 +195,7 @@ TEST(Tracker, MirrorImagesAreGivenWhereNothingTellsThem) {
   const auto tracks = tracks_of(gate, belt.reads, options);
   ASSERT_EQ(tracks.front().verdict, TrackVerdict::kAmbiguous);
   ASSERT_EQ(tracks.front().tracks.size(), 2U);
-  // On the other side of the plane y = 1.5 that both antennas are in.
+  // On the other side of the plane y = 1.5, which contains both antennas.
   const auto& a = tracks.front().tracks[0].points;
   const auto& b = tracks.front().tracks[1].points;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -216,7 +216,7 @@ TEST(Tracker, AThirdAntennaElsewhereTellsMirrorImages) {
 }
 
 TEST(Tracker, AntennasOnARobotFollowATagToo) {
-  // The tag's way relative to the antenna is what counts, but places are the world's.
+  // Only the tag's motion relative to the antenna matters, but positions are in the world frame.
   made::Rng rng(4);
   const made::Motion robot = made::straight({0.0, 1.6, 1.0}, {-0.3, 0.0, 0.0});
   const made::Motion truth = made::straight({0.0, 0.0, kBeltHeight}, {0.7, 0.0, 0.0});
@@ -268,7 +268,7 @@ TEST(Tracker, SaysWhyNotAndGoesOnWithTheOthers) {
   EXPECT_EQ(by_tag["tag10"].verdict, TrackVerdict::kTracked) << by_tag["tag10"].reason;
 }
 
-/// Pieces of passes, of which every phase is drawn anew where `at_random`.
+/// Pieces of passes; if `at_random`, every phase is replaced by a random one.
 std::vector<TagRead> pieces(int tags, double seconds, bool at_random) {
   made::Rng rng(5);
   std::vector<TagRead> reads;
@@ -290,8 +290,8 @@ int claims(const std::vector<TagTrack>& tracks) {
   }));
 }
 
-// A piece of half a second has 14 or 15 reads: without a lane a motion through random phases is
-// found for most.
+// A piece of half a second has 14 or 15 reads: without a lane, most random phases can be explained
+// by some motion.
 TEST(Tracker, RandomPhasesMakeNoTracks) {
   TrackingOptions free;
   for (const double seconds : {0.5, 1.0}) {
@@ -318,7 +318,7 @@ TEST(Tracker, ThreadsAndTheOrderOfReadsChangeNothing) {
   for (const TrackMethod method : {TrackMethod::kEkf, TrackMethod::kParticle}) {
     TrackingOptions options = belt_options();
     options.method = method;
-    options.min_coherence = 0.05;  // Of so few particles little is to be expected.
+    options.min_coherence = 0.05;  // So few particles track poorly.
     options.max_expected_error_m = 10.0;
     options.particles = 300;
     Belt belt = belt_of(8, 1.0, gate, 2);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Embree 3 and 4 as one: what their calls differ in. Which it is, CMake says by TAGFIELD_EMBREE.
+/// One interface to Embree 3 and 4, covering the calls that differ. CMake selects the version with
+/// TAGFIELD_EMBREE.
 #pragma once
 
 #if TAGFIELD_EMBREE >= 4
@@ -11,7 +12,7 @@
 
 namespace tagfield::embree {
 
-/// Whether rays that are traced together run alike.
+/// Whether rays that are traced together have similar directions.
 enum class Coherence { kIncoherent, kCoherent };
 
 using Context =

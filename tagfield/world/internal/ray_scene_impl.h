@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What RayScene keeps, for its sources.
+/// The members of RayScene, for its sources.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,25 +21,26 @@ struct WorldPlane {
   std::uint32_t collision = 0;
 };
 
-/// Those of all collisions but planes, one collision after the other.
+/// The triangles of all collisions except planes, grouped by collision.
 struct Triangles {
   std::vector<Eigen::Vector3d> vertices;  ///< [m, world]
   std::vector<std::array<std::uint32_t, 3>> indices;
-  std::vector<Eigen::Vector3d> normals;   ///< Unit vectors; zero where there is no area.
-  std::vector<std::uint32_t> collisions;  ///< Of each triangle.
-  std::vector<std::uint32_t> firsts;      ///< By collision: its first triangle.
+  std::vector<Eigen::Vector3d> normals;   ///< Unit vectors; zero for degenerate triangles.
+  std::vector<std::uint32_t> collisions;  ///< The collision of each triangle.
+  std::vector<std::uint32_t> firsts;      ///< The first triangle of each collision.
 };
 
 struct RayScene::Impl {
-  // One thread: Embree would start its own to build, and nothing else here does unasked.
+  // Single-threaded: Embree would start its own threads for building, and nothing else here starts
+  // any on its own.
   Impl();
   ~Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  /// `ray` and what the triangles answered, with the planes before it.
+  /// The nearest hit of `ray`, given the `distance` to the triangles and adding the planes.
   [[nodiscard]] float with_planes(const Ray& ray, float distance) const;
-  /// Up to 16 rays at once.
+  /// Up to 16 rays in one call.
   void intersect(const Ray* rays, std::size_t count, float* distances) const;
 
   RTCDevice device;
@@ -48,7 +49,7 @@ struct RayScene::Impl {
   std::vector<WorldPlane> planes;
 };
 
-/// Embree asks this of each hit of RayScene::surfaces().
+/// Filter that Embree calls for each hit of RayScene::surfaces().
 void gather_surfaces(const RTCFilterFunctionNArguments* hits);
 
 }  // namespace tagfield

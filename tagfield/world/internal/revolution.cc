@@ -20,7 +20,7 @@ void add_circle(TriangleMesh& mesh, const Ring& ring) {
   }
 }
 
-/// The wall between two circles of vertices that start at `lower` and `upper`, seen from outside.
+/// The wall between two circles of vertices that start at `lower` and `upper`, facing outward.
 void add_wall(TriangleMesh& mesh, std::uint32_t lower, std::uint32_t upper) {
   for (std::uint32_t edge = 0; edge < kEdges; ++edge) {
     const std::uint32_t next = (edge + 1) % kEdges;
@@ -29,7 +29,7 @@ void add_wall(TriangleMesh& mesh, std::uint32_t lower, std::uint32_t upper) {
   }
 }
 
-/// A fan from `apex` to a circle of vertices, seen from above or from below.
+/// A fan from `apex` to a circle of vertices, facing up or down.
 void add_fan(TriangleMesh& mesh, std::uint32_t apex, std::uint32_t circle, bool from_above) {
   for (std::uint32_t edge = 0; edge < kEdges; ++edge) {
     const std::uint32_t first = circle + edge;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A measure of meshes that does not depend on how they were made.
+/// The volume of meshes, independent of how they were made.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,8 +9,8 @@
 
 namespace tagfield {
 
-/// By the divergence theorem, the sum of the tetrahedra from the origin to each triangle: positive
-/// only where faces look outward.
+/// By the divergence theorem, the sum over the tetrahedra from the origin to each triangle:
+/// positive only if faces point outward.
 inline double volume(const TriangleMesh& mesh) {
   double sum = 0.0;
   for (const auto& [a, b, c] : mesh.triangles) {

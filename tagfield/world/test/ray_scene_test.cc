@@ -28,7 +28,7 @@ Ray ray_of(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, floa
   return {origin.cast<float>(), direction.normalized().cast<float>(), most_m};
 }
 
-/// Both ways of asking, which must agree.
+/// Both functions, which must agree.
 float distance_of(const RayScene& rays, const Ray& ray) {
   std::vector<float> distances;
   rays.distances({ray}, distances);
@@ -98,7 +98,8 @@ TEST(RayScene, ABadRayLeavesItsNeighboursAlone) {
 TEST(RayScene, MeetsTheInscribedPolyhedronOfASphere) {
   const double radius = 2.0;
   const RayScene rays(scene_of(Sphere{radius}, from_translation({1.0, 2.0, 3.0})));
-  // A chord's middle is nearest to the centre: no facet is nearer than that of two crossed chords.
+  // A chord's midpoint is nearest to the centre: no facet is nearer than that of two crossed
+  // chords.
   const double half = kPi / kCircleEdges;
   const double inner = radius * std::cos(half) * std::cos(half);
   for (int i = 0; i < 500; ++i) {
@@ -127,7 +128,7 @@ TEST(RayScene, MeetsACylindersFlatsAndCorners) {
 }
 
 TEST(RayScene, APlaneIsEndlessAndSeenFromBothSides) {
-  // Its size, 1 m, is only how much of it to draw.
+  // Its size, 1 m, is only the extent to draw.
   const RayScene rays(scene_of(Plane{}, from_translation({0.0, 0.0, 1.0})));
   const Eigen::Vector3d down = Eigen::Vector3d(1.0, 0.0, -0.01).normalized();
   EXPECT_NEAR(distance_of(rays, ray_of({0.0, 0.0, 3.0}, down)), 2.0 / -down.z(), 1e-3);
@@ -135,7 +136,7 @@ TEST(RayScene, APlaneIsEndlessAndSeenFromBothSides) {
   EXPECT_EQ(distance_of(rays, ray_of({0.0, 0.0, 3.0}, {1.0, 0.0, 0.0})), kNothing);
   EXPECT_EQ(distance_of(rays, ray_of({0.0, 0.0, 3.0}, {0.0, 0.0, 1.0})), kNothing);
   EXPECT_EQ(distance_of(rays, ray_of({0.0, 0.0, 3.0}, {0.0, 0.0, -1.0}, 1.99F)), kNothing);
-  // A ray that lies in the plane runs along it.
+  // A ray in the plane is parallel to it.
   EXPECT_EQ(distance_of(rays, ray_of({0.0, 0.0, 1.0}, {1.0, 0.0, 0.0})), kNothing);
 }
 
@@ -170,8 +171,8 @@ TEST(RayScene, TheNearerOfPlaneAndSolidCounts) {
 }
 
 TEST(RayScene, NoRaySlipsThroughAnEdgeOrACorner) {
-  // From inside every ray must meet the box, those at its edges and corners too. Turned and moved,
-  // so that corners are not round numbers.
+  // From inside, every ray must hit the box, including those at its edges and corners. Rotated and
+  // moved, so that corners are not round numbers.
   const RigidTransform X_WC = from_xyz_rpy({0.3, -7.1, 2.2}, {0.4, 0.2, 1.1});
   const Eigen::Vector3d half(1.5, 2.5, 0.7);
   const RayScene rays(scene_of(Box{2.0 * half}, X_WC));
@@ -192,7 +193,7 @@ TEST(RayScene, NoRaySlipsThroughAnEdgeOrACorner) {
           aim(from_C, half.cwiseProduct(Eigen::Vector3d(u, s, v)));
           aim(from_C, half.cwiseProduct(Eigen::Vector3d(u, v, s)));
         }
-        // The diagonals that cut each side in two triangles.
+        // The diagonals that split each side into two triangles.
         aim(from_C, half.cwiseProduct(Eigen::Vector3d(s, s, u)));
         aim(from_C, half.cwiseProduct(Eigen::Vector3d(s, -s, u)));
         aim(from_C, half.cwiseProduct(Eigen::Vector3d(s, u, s)));
@@ -215,10 +216,10 @@ TEST(RayScene, NoRaySlipsThroughAnEdgeOrACorner) {
   EXPECT_EQ(slipped, 0);
 }
 
-/// What a ray and a triangle have in common (Möller and Trumbore, 1997), in double precision.
+/// The intersection of a ray and a triangle (Möller and Trumbore, 1997), in double precision.
 struct Crossing {
   double distance = std::numeric_limits<double>::infinity();
-  double rim = std::numeric_limits<double>::infinity();  ///< How near to an edge, as a share.
+  double rim = std::numeric_limits<double>::infinity();  ///< To the nearest edge, barycentric.
 };
 
 Crossing crossing(const Ray& ray, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
@@ -233,14 +234,14 @@ Crossing crossing(const Ray& ray, const Eigen::Vector3d& a, const Eigen::Vector3
   const double v = direction.dot(q) / determinant;
   const double t = (c - a).dot(q) / determinant;
   const double inside = std::min({u, v, 1.0 - u - v});
-  // Where all three planes of the edges are far off it matters not how steep the triangle stands.
+  // Far from the planes through all three edges, the triangle's slope doesn't matter.
   Crossing result;
   result.rim = std::min(std::abs(inside), std::abs(t));
   if (inside >= 0.0 && t >= 0.0) result.distance = t;
   return result;
 }
 
-/// The nearest of all triangles of a mesh one by one.
+/// The nearest hit over all triangles of a mesh, tested one by one.
 Crossing brute_force(const Ray& ray, const TriangleMesh& mesh) {
   Crossing nearest;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -255,7 +256,7 @@ Eigen::Vector3d any_point(double most) {
   const auto any = [most] { return most * 1e-4 * *rc::gen::inRange(-10000, 10000); };
   const double x = any();
   const double y = any();
-  // Vertices as Embree has them, so that the two differ in arithmetic alone.
+  // Vertices rounded as for Embree, so that the two differ only in arithmetic.
   return Eigen::Vector3d(x, y, any()).cast<float>().cast<double>();
 }
 
@@ -279,7 +280,7 @@ RC_GTEST_PROP(RayScene, IsTheNearestOfAllTriangles, ()) {
   rays.distances(many, distances);
   for (std::size_t i = 0; i < many.size(); ++i) {
     const Crossing expected = brute_force(many[i], *mesh);
-    if (expected.rim < 1e-4) continue;  // Either answer is right at a rim.
+    if (expected.rim < 1e-4) continue;  // Either answer is correct at an edge.
     for (const float distance : {rays.distance(many[i]), distances[i]}) {
       if (std::isinf(expected.distance)) {
         RC_ASSERT(distance == kNothing);
@@ -311,7 +312,7 @@ RC_GTEST_PROP(RayScene, IsExactWhereRaysGrazeThinTriangles, ()) {
     const Eigen::Vector3d target = a + u * (b - a) + v * (c - a);
     const Ray ray = ray_of(target - 10.0 * direction, direction, 30.0F);
     const Crossing expected = brute_force(ray, *mesh);
-    if (expected.rim < 0.02) continue;  // Either answer is right near a rim.
+    if (expected.rim < 0.02) continue;  // Either answer is correct near an edge.
     const float distance = distance_of(rays, ray);
     if (std::isinf(expected.distance)) {
       RC_ASSERT(distance == kNothing);

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// Of a closed surface the areas with their directions add up to nothing.
+/// The area vectors of a closed surface sum to zero.
 void expect_closed(const TriangleMesh& mesh) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -28,7 +28,7 @@ Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh) {
   return bounds;
 }
 
-/// A regular polygon's share of the circle around it.
+/// Ratio of the areas of a regular polygon and its circumscribed circle.
 const double kPolygon = kCircleEdges / kTwoPi * std::sin(kTwoPi / kCircleEdges);
 
 TEST(Solids, ConeHoldsAThirdOfItsPrism) {

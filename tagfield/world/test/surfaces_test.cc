@@ -29,36 +29,36 @@ struct Expected {
   std::uint32_t triangle = 0;
 };
 
-/// The line's hits with one triangle by solving for the point in its plane, or none. Sets
-/// `near_rim` where the line all but touches the rim.
-void add_hit(const std::array<Eigen::Vector3d, 3>& p, const Stretch& stretch, Expected hit,
+/// The line's hit with one triangle, by solving for the point in its plane, if there is one. Sets
+/// `near_rim` if the line passes very close to an edge.
+void add_hit(const std::array<Eigen::Vector3d, 3>& p, const RaySegment& segment, Expected hit,
              std::vector<Expected>& hits, bool& near_rim) {
   Eigen::Matrix3d system;
-  system << p[1] - p[0], p[2] - p[0], -stretch.direction;
-  const Eigen::Vector3d solved = system.inverse() * (stretch.origin - p[0]);
+  system << p[1] - p[0], p[2] - p[0], -segment.direction;
+  const Eigen::Vector3d solved = system.inverse() * (segment.origin - p[0]);
   const double inside = std::min({solved[0], solved[1], 1.0 - solved[0] - solved[1]});
   if (std::abs(inside) < 1e-3) near_rim = true;
   hit.distance = solved[2];
-  if (inside >= 0.0 && hit.distance >= stretch.from_m && hit.distance <= stretch.to_m) {
+  if (inside >= 0.0 && hit.distance >= segment.from_m && hit.distance <= segment.to_m) {
     hits.push_back(hit);
   }
 }
 
-std::vector<Expected> brute_force(const Scene& scene, const Stretch& stretch, bool& near_rim) {
+std::vector<Expected> brute_force(const Scene& scene, const RaySegment& segment, bool& near_rim) {
   std::vector<Expected> hits;
   for (std::uint32_t i = 0; i < scene.collisions.size(); ++i) {
     const Collision& collision = scene.collisions[i];
     if (const auto* plane = std::get_if<Plane>(&collision.shape)) {
       const Eigen::Vector3d n = plane->normal.normalized();
       const double t =
-          n.dot(collision.X_WC.translation - stretch.origin) / n.dot(stretch.direction);
-      if (t >= stretch.from_m && t <= stretch.to_m) hits.push_back({t, i, 0});
+          n.dot(collision.X_WC.translation - segment.origin) / n.dot(segment.direction);
+      if (t >= segment.from_m && t <= segment.to_m) hits.push_back({t, i, 0});
       continue;
     }
     const TriangleMesh mesh = world_mesh(collision);
     for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
       const auto& [a, b, c] = mesh.triangles[k];
-      add_hit({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]}, stretch, {0.0, i, k}, hits,
+      add_hit({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]}, segment, {0.0, i, k}, hits,
               near_rim);
     }
   }
@@ -75,11 +75,11 @@ TEST(Surfaces, AreThoseOfEveryTriangleToTheLastDigits) {
   for (int i = 0; i < 3000; ++i) {
     const Eigen::Vector3d from(any(random), any(random), any(random));
     const Eigen::Vector3d to(any(random), any(random), any(random));
-    const Stretch stretch{from, (to - from).normalized(), -0.5, (to - from).norm()};
+    const RaySegment segment{from, (to - from).normalized(), -0.5, (to - from).norm()};
     bool near_rim = false;
-    const std::vector<Expected> expected = brute_force(scene, stretch, near_rim);
+    const std::vector<Expected> expected = brute_force(scene, segment, near_rim);
     if (near_rim) continue;
-    EXPECT_TRUE(rays.surfaces(stretch, {}, hits));
+    EXPECT_TRUE(rays.surfaces(segment, {}, hits));
     EXPECT_EQ(hits.size(), expected.size()) << i;
     for (const Expected& one : expected) {
       ++count;
@@ -88,7 +88,7 @@ TEST(Surfaces, AreThoseOfEveryTriangleToTheLastDigits) {
       });
       ASSERT_NE(same, hits.end()) << i;
       EXPECT_NEAR(same->distance_m, one.distance, 1e-9);
-      EXPECT_NEAR(same->slope, same->normal.dot(stretch.direction), 1e-12);
+      EXPECT_NEAR(same->slope, same->normal.dot(segment.direction), 1e-12);
     }
   }
   EXPECT_GT(count, 2000U);
@@ -109,13 +109,13 @@ TEST(Surfaces, NormalsPointOutOfABox) {
 
 TEST(Surfaces, TheSearchStopsWhereItIsTold) {
   const RayScene rays(three_shapes());
-  Stretch stretch{{-5.0, 0.3, 0.2}, {1.0, 0.0, 0.0}, 0.0, 20.0};
+  RaySegment segment{{-5.0, 0.3, 0.2}, {1.0, 0.0, 0.0}, 0.0, 20.0};
   std::vector<SurfaceHit> hits;
-  EXPECT_FALSE(rays.surfaces(stretch, {1, 0, 0, 0}, hits));
-  EXPECT_TRUE(rays.surfaces(stretch, {0, 0, 0, 0}, hits));
+  EXPECT_FALSE(rays.surfaces(segment, {1, 0, 0, 0}, hits));
+  EXPECT_TRUE(rays.surfaces(segment, {0, 0, 0, 0}, hits));
   EXPECT_FALSE(rays.surfaces({{0.0, 0.0, 5.0}, {0.0, 0.0, -1.0}, 0.0, 9.0}, {0, 1, 0, 0}, hits));
-  stretch.stop_from_m = 10.0;
-  EXPECT_TRUE(rays.surfaces(stretch, {1, 0, 0, 0}, hits));
+  segment.stop_from_m = 10.0;
+  EXPECT_TRUE(rays.surfaces(segment, {1, 0, 0, 0}, hits));
   EXPECT_GE(hits.size(), 2U);
 }
 

@@ -29,7 +29,7 @@ bool is_closed(const TriangleMesh& mesh) {
   return !edges.empty();
 }
 
-/// For a convex solid around the origin, every face looks away from it.
+/// For a convex solid around the origin, every face points away from it.
 bool faces_look_outward(const TriangleMesh& mesh) {
   for (const auto& [a, b, c] : mesh.triangles) {
     const Eigen::Vector3d normal =
@@ -99,7 +99,7 @@ TEST(Triangulate, SphereVerticesLieOnTheSphere) {
   for (const Eigen::Vector3d& vertex : triangulate(Sphere{2.0}).vertices) {
     EXPECT_NEAR(vertex.norm(), 2.0, 1e-12);
   }
-  // The true ball is a little larger: (2/3)(π/16)² is 2.6 %, to first order.
+  // The true sphere is slightly larger: (2/3)(π/16)² is 2.6 %, to first order.
   EXPECT_NEAR(volume(triangulate(Sphere{1.0})) / (4.0 / 3.0 * kPi), 1.0, 0.03);
 }
 

@@ -17,7 +17,7 @@ TEST(WorldMesh, StandsWhereTheCollisionDoes) {
   EXPECT_EQ(mesh.triangles, triangulate(Box{{2.0, 4.0, 6.0}}).triangles);
   ASSERT_EQ(mesh.vertices.size(), 8U);
   for (const Eigen::Vector3d& p_W : mesh.vertices) {
-    // A quarter turn swaps length and width.
+    // A rotation by 90° swaps length and width.
     const Eigen::Vector3d from_centre = p_W - Eigen::Vector3d(1.0, 2.0, 3.0);
     EXPECT_LT((from_centre.cwiseAbs() - Eigen::Vector3d(2.0, 1.0, 3.0)).norm(), 1e-12);
   }

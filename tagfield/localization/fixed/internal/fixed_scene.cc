@@ -16,7 +16,7 @@ namespace tagfield {
 namespace {
 
 constexpr std::size_t kFewestAntennas = 3;
-constexpr double kCoarseCells = 1200;  ///< Of the area, about.
+constexpr double kCoarseCells = 1200;  ///< Approximate number over the area.
 
 double furthest(const std::vector<FixedReads>& reads, const Eigen::Vector3d& place) {
   double most = 0.0;
@@ -24,7 +24,8 @@ double furthest(const std::vector<FixedReads>& reads, const Eigen::Vector3d& pla
   return most;
 }
 
-/// The area in which a tag may be: told, or within reach of all antennas that read it.
+/// Area in which a tag may be: the given one, or the bounding box of the antennas that read it plus
+/// their range.
 Eigen::AlignedBox2d area_of(const LocalizationProblem& problem,
                             const std::vector<FixedReads>& reads, double max_range_m) {
   if (problem.area.box) return *problem.area.box;
@@ -43,11 +44,11 @@ double spread_of(const std::vector<Eigen::Vector3d>& cells) {
   return std::sqrt(squares / static_cast<double>(cells.size()));
 }
 
-WayLine line_of(const std::vector<FixedReads>& reads) {
+PathLine line_of(const std::vector<FixedReads>& reads) {
   std::vector<Eigen::Vector2d> places;
   places.reserve(reads.size());
   for (const FixedReads& of : reads) places.emplace_back(of.p_WA.head<2>());
-  return way_line(places);
+  return path_line(places);
 }
 
 std::vector<Eigen::Vector3d> cells_of(const LocalizationProblem& problem, const FixedTag& tag,
@@ -56,7 +57,7 @@ std::vector<Eigen::Vector3d> cells_of(const LocalizationProblem& problem, const 
   const Eigen::Vector2d size = area.sizes();
   cell_m = std::sqrt(size.prod() / kCoarseCells);
   const double height = plane_height(problem, *tag.name);
-  const WayLine line = line_of(tag.reads);
+  const PathLine line = line_of(tag.reads);
   std::vector<Eigen::Vector3d> cells;
   for (double x = area.min().x() + 0.5 * cell_m; x < area.max().x(); x += cell_m) {
     for (double y = area.min().y() + 0.5 * cell_m; y < area.max().y(); y += cell_m) {
@@ -108,7 +109,7 @@ std::vector<std::string> antennas_of(const LocalizationProblem& problem) {
   return {names.begin(), names.end()};
 }
 
-/// A reference tag is one whose area is its place.
+/// The area of a reference tag is its known position alone.
 void put_at_reference(const LocalizationProblem& problem, const std::vector<std::string>& antennas,
                       const FixedOptions& options, FixedTag& tag) {
   const auto known = problem.reference_tags.find(*tag.name);

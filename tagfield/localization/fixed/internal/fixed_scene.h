@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Antennas at rest and the tags that they read: what strengths and phases of all of them tell.
+/// Stationary antennas and the tags that they read, with everything learned from RSSI and phases of
+/// all tags.
 #pragma once
 
 #include <string>
@@ -13,14 +14,14 @@
 
 namespace tagfield {
 
-/// A tag and all that is known of it.
+/// A tag and everything known about it.
 struct FixedTag {
   const std::string* name = nullptr;
   const SamplesOfTag* samples = nullptr;
   std::vector<FixedReads> reads;
   TagOnGrid grid;
   double cell_m = 0.0;
-  double spread_m = 0.0;  ///< Of the area by itself.
+  double spread_m = 0.0;  ///< Of the area alone.
   std::string why_not;
 };
 
@@ -30,12 +31,12 @@ struct FixedScene {
   LearnedLaw law;
   ChannelTurns offsets;
   PhaseField field;
-  double trust = 1.0;         ///< Exponent of the phases' likelihoods.
-  std::string swapped;        ///< The two antennas that must have been exchanged, or "".
-  bool out_of_order = false;  ///< Phases show other carriers than were told; they are not used.
+  double trust = 1.0;         ///< Exponent of the phase likelihoods.
+  std::string swapped;        ///< The two antennas that appear to be swapped, or "".
+  bool out_of_order = false;  ///< The phases contradict the given carriers and are not used.
 };
 
-/// Learns the law of strengths, the offsets of channels and the phases' field from all tags.
+/// Learns the path-loss law, the channel offsets and the phase field from all tags.
 FixedScene fixed_scene(const LocalizationProblem& problem, int threads,
                        const FixedOptions& options);
 

@@ -11,20 +11,21 @@
 namespace tagfield {
 namespace {
 
-constexpr double kRangeStep = 0.02;       ///< [m]
-constexpr std::size_t kTellingTags = 12;  ///< Of the phases' field.
+constexpr double kRangeStep = 0.02;           ///< [m]
+constexpr std::size_t kInformativeTags = 12;  ///< Used to estimate the phase field.
 
-/// The first few whose places are not known.
-std::vector<std::size_t> telling_tags(const FixedScene& scene, const LocalizationProblem& problem) {
+/// The first few tags at unknown positions.
+std::vector<std::size_t> informative_tags(const FixedScene& scene,
+                                          const LocalizationProblem& problem) {
   std::vector<std::size_t> some;
-  for (std::size_t i = 0; i < scene.tags.size() && some.size() < kTellingTags; ++i) {
+  for (std::size_t i = 0; i < scene.tags.size() && some.size() < kInformativeTags; ++i) {
     const bool is_known = problem.reference_tags.count(*scene.tags[i].name) > 0;
     if (scene.tags[i].why_not.empty() && !is_known) some.push_back(i);
   }
   return some;
 }
 
-/// ln of how likely the phases of some tags are under a field, by where strengths put them.
+/// Log-likelihood of a field given the phases of some tags at the positions that RSSI suggests.
 double log_of_field(const FixedScene& scene, const std::vector<std::size_t>& some,
                     const std::vector<Eigen::ArrayXd>& weights, const PhaseField& field) {
   double log = 0.0;
@@ -47,7 +48,7 @@ double log_of_field(const FixedScene& scene, const std::vector<std::size_t>& som
   return log;
 }
 
-/// Of each antenna over the area's distances, as a density over that of the area itself.
+/// Range likelihoods per antenna, relative to their mean over the area's distances.
 std::vector<RangeLikelihood> ranges_of(const FixedScene& scene, const FixedTag& tag, double trust) {
   std::vector<RangeLikelihood> ranges;
   for (const FixedReads& reads : tag.reads) {
@@ -74,7 +75,7 @@ std::vector<RangeLikelihood> ranges_of(const FixedScene& scene, const FixedTag& 
 
 PhaseField likeliest_field(const FixedScene& scene, const LocalizationProblem& problem,
                            const FixedOptions& options, int threads) {
-  const std::vector<std::size_t> some = telling_tags(scene, problem);
+  const std::vector<std::size_t> some = informative_tags(scene, problem);
   std::vector<Eigen::ArrayXd> weights;
   for (const std::size_t i : some) {
     const Eigen::ArrayXd logs = log_strength(scene.tags[i].grid, scene.law.of_tag[i], options);
@@ -118,7 +119,7 @@ LogDensity density_of(const FixedScene& scene, const FixedTag& tag, const Streng
 double trust_of(const FixedScene& scene, const LocalizationProblem& problem,
                 const FixedOptions& options, int threads) {
   constexpr double kTrusts[] = {1.0, 0.5, 0.25, 0.12, 0.06, 0.03, 0.015, 0.0};
-  const std::vector<std::size_t> some = telling_tags(scene, problem);
+  const std::vector<std::size_t> some = informative_tags(scene, problem);
   std::vector<double> sums(std::size(kTrusts));
   parallel_for(sums.size(), threads, [&](std::size_t k) {
     for (const std::size_t i : some) {

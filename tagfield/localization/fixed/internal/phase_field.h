@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the phases of antennas at rest say of places, and how far they can be trusted.
+/// Position likelihood from the phases of stationary antennas, and how far it can be trusted.
 #pragma once
 
 #include "tagfield/localization/fixed/internal/fixed_scene.h"
 
 namespace tagfield {
 
-/// The likeliest field of reflections, by a few tags and where strengths put them.
+/// Maximum-likelihood field of reflections, from a few tags at the positions that their RSSI
+/// suggests.
 PhaseField likeliest_field(const FixedScene& scene, const LocalizationProblem& problem,
                            const FixedOptions& options, int threads);
 
-/// Of a tag's place, by strengths that go by `law` and by phases, trusted as far as `trust` says;
-/// all but that must outlive it.
+/// Density of a tag's position from RSSI under `law` and from phases, weighted by `trust`. All
+/// arguments except `trust` must outlive the result.
 LogDensity density_of(const FixedScene& scene, const FixedTag& tag, const StrengthLaw& law,
                       double trust, const FixedOptions& options);
 
-/// How far the phases' distances can be trusted: the exponent of their likelihoods under which
-/// those of several antennas, which say more than a place has coordinates, agree best with one
-/// another and with the strengths. Reflections that are no diffuse field leave less than 1.
+/// Reliability of the phases' ranges: the exponent of their likelihoods at which the ranges of
+/// several antennas, which overdetermine the position, agree best with one another and with the
+/// RSSI. Below 1 where reflections are not a diffuse field.
 double trust_of(const FixedScene& scene, const LocalizationProblem& problem,
                 const FixedOptions& options, int threads);
 

@@ -15,7 +15,7 @@
 namespace tagfield {
 namespace {
 
-/// The same tags with two antennas' places exchanged.
+/// The same tags with two antennas' poses exchanged.
 std::vector<TagOnGrid> with_exchanged(const FixedScene& scene,
                                       const std::vector<std::size_t>& numbers,
                                       const FixedReads& one, const FixedReads& other,
@@ -34,7 +34,7 @@ std::vector<TagOnGrid> with_exchanged(const FixedScene& scene,
   return grids;
 }
 
-/// At most so many of them, from all over the list: neighbours often stand next to each other.
+/// At most `most` of them, spread over the list: neighbours in it are often neighbours in space.
 std::vector<std::size_t> spread_over(const std::vector<std::size_t>& numbers, std::size_t most) {
   if (numbers.size() <= most) return numbers;
   std::vector<std::size_t> some;
@@ -71,8 +71,8 @@ std::string swapped_antennas(const FixedScene& scene, const std::vector<std::siz
   const auto best = std::max_element(evidences.begin(), evidences.end());
   if (best == evidences.end()) return "";
   const double by_chance = kLeastLogEvidence + std::log(static_cast<double>(pairs.size()));
-  // Reflections and lobes that nothing is known of make another order likelier in true rooms, too,
-  // but seldom by as much as the order as told explains (docs/methods.md).
+  // Reflections and unknown lobes also make another order likelier in real rooms, but seldom by as
+  // much as the given order explains (docs/methods.md).
   if (*best - told < std::max(by_chance, told)) return "";
   const auto& [one, other] = pairs[static_cast<std::size_t>(best - evidences.begin())];
   return fmt::format("'{}' and '{}'", one->antenna, other->antenna);

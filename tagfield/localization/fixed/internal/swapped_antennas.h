@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Whether two antennas at rest must have been exchanged: ports mixed up, or poses.
+/// Detection of two stationary antennas that have been swapped: mixed-up ports or poses.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace tagfield {
 
-/// Which two antennas' exchange makes the strengths of the tags with these numbers a hundred times
-/// likelier, the number of pairs allowed for, and explains twice as much as their order as told
-/// (evidence of LearnedLaw); "" where none does. By a few tags.
+/// The two antennas whose swap makes the RSSI of the tags with these indices a hundred times
+/// likelier (allowing for the number of pairs) and explains twice as much as the given order
+/// (evidence of LearnedLaw); "" if there are none. Uses a few tags.
 std::string swapped_antennas(const FixedScene& scene, const std::vector<std::size_t>& numbers,
                              const FixedOptions& options, int threads);
 

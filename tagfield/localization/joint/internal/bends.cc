@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The poses of an antenna at its samples: where these say, turned as its track.
+/// Poses of an antenna at its samples: positions from the samples, orientations from its track.
 std::vector<RigidTransform> poses_of(const LocalizationProblem& problem, const std::string& antenna,
                                      const std::vector<PhaseSample>& series) {
   std::vector<RigidTransform> poses;
@@ -28,7 +28,7 @@ std::vector<RigidTransform> poses_of(const LocalizationProblem& problem, const s
   return poses;
 }
 
-/// What the waves come to at a place.
+/// Sum of the waves at a point.
 struct Field {
   std::complex<double> all = 0.0;
   double direct = 0.0;      ///< Amplitude of the direct wave,
@@ -36,7 +36,7 @@ struct Field {
   // Each wave times its direction at the tag and at the antenna.
   Eigen::Vector3cd at_tag = Eigen::Vector3cd::Zero();
   Eigen::Vector3cd at_antenna = Eigen::Vector3cd::Zero();
-  /// 0 where the direct way is blocked.
+  /// 0 if the direct path is blocked.
   [[nodiscard]] double directness() const { return amplitudes > 0.0 ? direct / amplitudes : 0.0; }
 };
 
@@ -73,7 +73,7 @@ Bend bend_at(const TracedReply& reply, const Vector3d& p_WA, const Vector3d& p, 
   return bend;
 }
 
-/// Leaves out the samples so marked, in the order of the antennas and of their samples.
+/// Removes the marked samples; marks are in the order of the antennas and their samples.
 void leave_out(const std::vector<bool>& marked, Straightened& straight) {
   std::size_t next = 0;
   for (auto& [antenna, series] : straight.samples) {

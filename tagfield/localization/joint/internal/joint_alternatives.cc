@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Other places that explain the reads as well.
+// Other positions that explain the reads equally well.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// How far the antennas' places are from the line that lies best in them, seen from above [m]:
-/// along their scatter's lesser eigenvector.
+/// Horizontal distances of the antenna positions from their best-fitting line [m]: along the minor
+/// eigenvector of their scatter.
 Eigen::ArrayXd from_line(const TagPhases& phases) {
   Eigen::MatrixX2d places(phases.x.size(), 2);
   places << phases.x, phases.y;
@@ -21,13 +21,13 @@ Eigen::ArrayXd from_line(const TagPhases& phases) {
   places.rowwise() -= middle;
   const Eigen::Matrix2d scatter = places.transpose() * places;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
-  axes.computeDirect(scatter);  // Iterating takes seconds to compile.
+  axes.computeDirect(scatter);  // The iterative solver takes seconds to compile.
   return places * axes.eigenvectors().col(0);
 }
 
-/// The way of all antennas, and whether it is so straight that mirror images can't be told apart.
+/// Path of all antennas, and whether it is so straight that mirror images are ambiguous.
 struct Way {
-  TagPhases places;  ///< x and y alone.
+  TagPhases places;  ///< x and y only.
   bool is_straight = false;
 };
 
@@ -53,7 +53,7 @@ bool is_elsewhere(const Candidate& candidate, const Eigen::Vector3d& p_WT) {
   return (candidate.p_WT - p_WT).head<2>().norm() > kSame;
 }
 
-/// All tags mirrored and everything fitted again: the pose error's own mirror image is as likely.
+/// Mirrors all tags and fits again: the mirror image of the pose error is equally likely.
 void add_mirrored(JointState& state, int threads) {
   constexpr double kClearlyWorse = 25.0;
   const Way way = way_of(state.system);
@@ -72,13 +72,13 @@ void add_mirrored(JointState& state, int threads) {
   for (std::size_t i = 0; i < mirrored.tags.size(); ++i) {
     const JointTag& tag = state.system.tags[i];
     const Candidate candidate = candidate_of(mirrored, i, covariance.of_tag[i]);
-    if (is_elsewhere(candidate, to_place(tag.height, tag.fit.unknowns))) {
+    if (is_elsewhere(candidate, to_position(tag.height, tag.fit.unknowns))) {
       state.alternatives[i].push_back(candidate);
     }
   }
 }
 
-/// Where the tag's antennas were, with their estimated error taken out.
+/// Antenna positions of the tag's reads, with the estimated error removed.
 TagPhases corrected_way(const JointSystem& system, const JointTag& tag) {
   TagPhases phases = tag.phases;
   for (Index i = 0; i < phases.size(); ++i) {
@@ -95,7 +95,7 @@ bool shares_knots(const JointTag& one, const JointTag& other) {
   });
 }
 
-/// Standard deviation of the pose error where the tag was read, in x or y [m].
+/// Standard deviation of the pose error in x or y where the tag was read [m].
 double pose_sigma_at(const JointSystem& system, const JointTag& tag) {
   double most = 0.0;
   for (const Index knot : tag.knots) {
@@ -105,14 +105,14 @@ double pose_sigma_at(const JointSystem& system, const JointTag& tag) {
   return most;
 }
 
-/// A way no further from a line than so many times the pose error, rms, may be a straight one: on
-/// the wrong side, the error is estimated with the wrong sign, so that a straight way seems to be
-/// off by twice as much as the poses are.
+/// A path may be straight if its rms distance from a line is at most this many times the pose
+/// error: with a tag on the wrong side, the error is estimated with the wrong sign, so that a
+/// straight path seems to deviate by twice the pose error.
 constexpr double kStraight = 3.0;
 
-/// The second place of a tag that was read from a straight stretch alone: across that. What tells
-/// the sides apart then is the pose error that it shares with other tags, and where some of those
-/// are on the wrong side, it tells the wrong one as clearly. Reference tags' sides are known.
+/// Adds the mirror image of a tag read only from a straight section. There, only the pose error
+/// shared with other tags distinguishes the sides, and it is just as conclusive for the wrong side
+/// if some of those tags are on the wrong side. The sides of reference tags are known.
 void add_mirrored_where_straight(JointState& state) {
   const JointSystem& system = state.system;
   for (std::size_t i = 0; i < system.tags.size(); ++i) {
@@ -124,24 +124,25 @@ void add_mirrored_where_straight(JointState& state) {
     const TagPhases phases = corrected_way(system, tag);
     const double rms = std::sqrt(from_line(phases).square().mean());
     if (has_reference || rms > kStraight * pose_sigma_at(system, tag)) continue;
-    PlaceVector image = tag.fit.unknowns;
+    PositionVector image = tag.fit.unknowns;
     image.head<2>() = mirror_image(phases, image.head<2>());
     const Candidate mirrored =
         make_candidate(phases, tag.height, fit_tag(phases, tag.height, image));
-    if (is_elsewhere(mirrored, to_place(tag.height, tag.fit.unknowns))) {
+    if (is_elsewhere(mirrored, to_position(tag.height, tag.fit.unknowns))) {
       state.alternatives[i].push_back(mirrored);
     }
   }
 }
 
-/// Of single tags by themselves; the best of each, wherever it is, goes into `best`.
+/// Adds other positions of single tags; the best fit of each, at whatever position, goes into
+/// `best`.
 void add_other_places(JointState& state, BestFits& best, int threads) {
   for_each_corrected_fit(state, threads, [&](std::size_t i, const UnwrappedFit& fit) {
     if (fit.fits.empty()) return;
     best[i] = fit.fits.front();
     const JointTag& tag = state.system.tags[i];
     for (const Candidate& candidate : make_candidates(fit.phases, fit.height, fit.fits)) {
-      if (is_elsewhere(candidate, to_place(tag.height, tag.fit.unknowns))) {
+      if (is_elsewhere(candidate, to_position(tag.height, tag.fit.unknowns))) {
         state.alternatives[i].push_back(candidate);
       }
     }

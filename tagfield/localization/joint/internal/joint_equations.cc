@@ -10,7 +10,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Keeps matrices invertible where nothing is told of an unknown [1/m²].
+/// Keeps matrices invertible if an unknown is not observed [1/m²].
 constexpr double kTinyPivot = 1e-6;
 
 template <int D>
@@ -19,7 +19,8 @@ ChainPart<D> empty_chain(Index knots) {
           Eigen::VectorXd::Zero(D * knots)};
 }
 
-/// Derivative of a read's range by the unknowns of a knot: the antenna moves back by the error.
+/// Derivative of a read's range with respect to the unknowns of a knot: the antenna moves opposite
+/// to the error.
 template <int D>
 Eigen::Matrix<double, D, 1> by_knot(const JointSystem& system, const JointTag& tag, Index i,
                                     const Eigen::Vector3d& gradient, Index knot) {
@@ -30,7 +31,7 @@ Eigen::Matrix<double, D, 1> by_knot(const JointSystem& system, const JointTag& t
   return scale.topLeftCorner<D, D>().transpose() * by_error.head<D>();
 }
 
-/// Adds one read's products with the pose error.
+/// Adds the products of one read with the pose error.
 template <int D>
 void add_to_knots(const JointSystem& system, const JointTag& tag, Index i, int column,
                   const ReadNow& now, double weight, TagPart<D>& part) {
@@ -56,7 +57,7 @@ void add_to_knots(const JointSystem& system, const JointTag& tag, Index i, int c
   part.chain.gradient.template segment<D>(after) += weight * now.error * b;
 }
 
-/// Adds one read's products to the tag's part.
+/// Adds the products of one read to the tag's part.
 template <int D>
 void add_read(const JointSystem& system, const JointTag& tag, std::size_t span, Index i,
               TagPart<D>& part) {
@@ -101,7 +102,7 @@ TagPart<D> part_of(const JointSystem& system, const JointTag& tag) {
   return part;
 }
 
-/// What is known of the pose error beforehand: uᵀ Λ u with the process' precision Λ.
+/// Prior of the pose error: uᵀ Λ u with the precision Λ of the process.
 template <int D>
 void add_prior(const JointSystem& system, ChainPart<D>& chain) {
   constexpr int size = D;
@@ -136,13 +137,13 @@ Layout layout_of(const JointTag& tag) {
 
 namespace {
 
-/// What the bend has changed by since it was taken, to first order.
+/// Adds the change of the bend from its reference point, to first order.
 void add_bend(const JointTag& tag, Index i, const Eigen::Vector2d& moved, ReadNow& now) {
   const BendSlopes& slopes = *tag.slopes;
   const Eigen::Vector3d by_place = slopes.by_place.col(i);
   const Eigen::Vector3d by_antenna = slopes.by_antenna.col(i);
-  const Eigen::Vector3d gone = to_place(tag.height, tag.fit.unknowns) - slopes.p_WT;
-  // The antenna truly is at the believed place less the displacement.
+  const Eigen::Vector3d gone = to_position(tag.height, tag.fit.unknowns) - slopes.p_WT;
+  // The true antenna position is the believed one minus the displacement.
   now.range.r += by_place.dot(gone) - by_antenna.head<2>().dot(moved - slopes.moved.col(i));
   constexpr double kLeastVariance = 1e-6;
   now.range.gradient +=

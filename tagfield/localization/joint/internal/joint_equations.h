@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The normal equations of a JointSystem where it stands: a chain of blocks for the pose error's
-/// knots, and a border for the tags.
+/// Normal equations of a JointSystem at its current state: a chain of blocks for the knots of the
+/// pose error, bordered by the tags.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,28 +12,28 @@
 
 namespace tagfield {
 
-/// Where a tag's unknowns are: its place first, then the offsets that are unknown.
+/// Order of a tag's unknowns: its position first, then the unknown offsets.
 struct Layout {
   int place = 0;             ///< 0 for a fixed tag, else 2 or 3.
-  std::vector<int> of_span;  ///< Column of a span's offset, −1 where it is known.
+  std::vector<int> of_span;  ///< Column of a span's offset, −1 if it is known.
   Eigen::Index size = 0;
 };
 
 Layout layout_of(const JointTag& tag);
 
-/// Blocks of D × D side by side, one a knot.
+/// D × D blocks side by side, one per knot.
 template <int D>
 using Blocks = Eigen::Matrix<double, D, Eigen::Dynamic>;
 
-/// The pose error's part of the normal equations, with D unknowns a knot.
+/// The pose error's part of the normal equations, with D unknowns per knot.
 template <int D>
 struct ChainPart {
   Blocks<D> diagonal;
-  Blocks<D> next;  ///< Block k is that of rows k, columns k + 1.
+  Blocks<D> next;  ///< Block k has rows k and columns k + 1.
   Eigen::VectorXd gradient;
 };
 
-/// One tag's part. `chain` covers only JointTag::knots, as if all followed one another.
+/// One tag's part. `chain` covers only JointTag::knots, as if they were consecutive.
 template <int D>
 struct TagPart {
   Layout layout;
@@ -49,7 +49,7 @@ struct Linear {
   ChainPart<D> chain;
 };
 
-/// The unknowns of knots, D each.
+/// Indices of the unknowns of knots, D each.
 template <int D>
 std::vector<Eigen::Index> unknowns_of(const std::vector<Eigen::Index>& knots) {
   std::vector<Eigen::Index> unknowns;
@@ -59,19 +59,19 @@ std::vector<Eigen::Index> unknowns_of(const std::vector<Eigen::Index>& knots) {
   return unknowns;
 }
 
-/// With D = `system.knots.size`, 2 or 3. Threads share the tags.
+/// D = `system.knots.size`, 2 or 3. The tags are distributed over threads.
 template <int D>
 Linear<D> linearize(const JointSystem& system, int threads);
 
-/// uᵀ Λ u with the pose error's precision Λ beforehand.
+/// uᵀ Λ u with the prior precision Λ of the pose error.
 double prior_cost(const JointSystem& system);
 
-/// Range and residual of one read where the system stands. The believed place holds the error, so
-/// the antenna truly is at the believed place less the displacement.
+/// Range and residual of one read at the current state. The believed position includes the error,
+/// so the true antenna position is the believed one minus the displacement.
 struct ReadNow {
   Range range;
-  /// Derivative by the error of the antenna's believed place: the range's by the tag's place, but
-  /// for bends.
+  /// Derivative with respect to the error of the believed antenna position; without bends, equal to
+  /// that of the range with respect to the tag's position.
   Eigen::Vector3d by_antenna_error;
   double error = 0.0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Learns how strong the pose error is, and how slow.
+// Estimation of the magnitude and time constant of the pose error.
 #include <utility>
 #include <vector>
 
@@ -10,7 +10,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// The same displacements in units of other scales.
+/// Expresses the same displacements in units of other scales.
 void rescale(JointSystem& system, const PoseKnots& knots) {
   const int size = knots.size;
   for (Index k = 0; k < knots.count(); ++k) {
@@ -25,7 +25,7 @@ void rescale(JointSystem& system, const PoseKnots& knots) {
   system.knots = knots;
 }
 
-/// Where a system stands, without its reads.
+/// State of a system, without its reads.
 struct Standing {
   PoseKnots knots;
   Eigen::VectorXd u;
@@ -53,7 +53,7 @@ struct Trial {
   Standing at;
 };
 
-/// From where `from` is; the system is left where that leads.
+/// Minimizes from `from` with the given model; the system keeps the result.
 Trial tried(JointSystem& system, const Standing& from, const PoseKnots& knots, double factor,
             double time_constant_s, int threads) {
   put(from, system);
@@ -75,7 +75,7 @@ void learn_pose_error(JointState& state, int threads) {
   const PoseKnots knots = system.knots;
   Trial best = tried(system, standing_of(system), knots, 1.0, knots.time_constant_s, threads);
   int trials = 1;
-  // Each of the two is made greater or smaller as long as that is more likely.
+  // Increases or decreases each of the two as long as the evidence improves.
   for (bool any = true; any && trials < kMostTrials;) {
     any = false;
     for (const auto& [by, of_time] :

@@ -24,7 +24,7 @@ void damp(Linear<D>& linear, double damping) {
 template <int D>
 struct ChainFactors {
   Blocks<D> own;    ///< Lower triangular.
-  Blocks<D> below;  ///< Block k is that of rows k + 1, columns k.
+  Blocks<D> below;  ///< Block k has rows k + 1 and columns k.
   double log_determinant = 0.0;
 };
 
@@ -48,7 +48,7 @@ ChainFactors<D> factorize(const ChainPart<D>& chain) {
   return factors;
 }
 
-/// L⁻¹ right, in place; row by row, which lie one after the other.
+/// L⁻¹ right, in place; row by row, as rows are contiguous.
 template <int D, typename Matrix>
 void solve_forward(const ChainFactors<D>& factors, Matrix& right) {
   const Index knots = factors.own.cols() / D;
@@ -98,7 +98,7 @@ std::vector<Index> starts_of(const Linear<D>& linear) {
   return starts;
 }
 
-/// With the chain eliminated: the tags' own system, and what leads back.
+/// With the chain eliminated: the reduced system of the tags, and the data for back substitution.
 template <int D>
 struct Reduced {
   ChainFactors<D> factors;
@@ -152,8 +152,8 @@ Move solve_for_tags_first(const JointSystem& system, const Linear<D>& linear) {
   return move;
 }
 
-/// The first column that isn't 0 of each row of the knots' matrix once the tags are eliminated:
-/// each tag couples all of its knots.
+/// First nonzero column of each row of the knots' matrix after eliminating the tags: each tag
+/// couples all of its knots.
 template <int D>
 std::vector<Index> knot_envelope(const JointSystem& system) {
   std::vector<Index> firsts(static_cast<std::size_t>(system.knots.count()));
@@ -169,7 +169,7 @@ std::vector<Index> knot_envelope(const JointSystem& system) {
   return of_unknowns;
 }
 
-/// With the tags eliminated: the knots' own system.
+/// With the tags eliminated: the reduced system of the knots.
 struct KnotSystem {
   std::vector<Eigen::LLT<Eigen::MatrixXd>> of_tag;  ///< Factors of each tag's own normal matrix.
   EnvelopeMatrix knots;                             ///< Its factor.
@@ -193,7 +193,7 @@ void add_chain(const ChainPart<D>& chain, EnvelopeMatrix& matrix) {
   }
 }
 
-/// What a tag takes from its knots' part of the system when it is eliminated.
+/// Update of the knots' part of the system by the elimination of a tag.
 struct Taken {
   Eigen::LLT<Eigen::MatrixXd> factors;  ///< Of the tag's own normal matrix.
   Eigen::MatrixXd normal;               ///< The lower triangle.
@@ -214,7 +214,7 @@ Taken eliminated(const TagPart<D>& part) {
 
 template <int D>
 KnotSystem reduce_to_knots(const JointSystem& system, const Linear<D>& linear, int threads) {
-  constexpr std::size_t kTagsAtOnce = 8;  // What they take is dense.
+  constexpr std::size_t kTagsAtOnce = 8;  // Their updates are dense.
   KnotSystem reduced{{}, EnvelopeMatrix(knot_envelope<D>(system)), false, linear.chain.gradient};
   add_chain<D>(linear.chain, reduced.knots);
   std::vector<Taken> taken(kTagsAtOnce);
@@ -237,7 +237,7 @@ template <int D>
 Move solve_for_knots_first(const JointSystem& system, const Linear<D>& linear, int threads) {
   const KnotSystem reduced = reduce_to_knots(system, linear, threads);
   Move move{reduced.knots.solve(reduced.gradient), {}};
-  // As where Eigen finds no factors: a step that is refused.
+  // As when Eigen's factorization fails: the step is rejected.
   if (!reduced.is_definite) move.u.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (std::size_t j = 0; j < linear.tags.size(); ++j) {
     const TagPart<D>& part = linear.tags[j];
@@ -251,7 +251,7 @@ Move solve_for_knots_first(const JointSystem& system, const Linear<D>& linear, i
 template <int D>
 bool knots_first(const JointSystem& system, const Linear<D>& linear) {
   Index unknowns = 0;
-  // Tiles go in wide vector instructions, at some three times the rate of Eigen's.
+  // Tiles use wide vector instructions, about three times as fast as Eigen.
   double work = 2.0 / 3.0 * work_of_factors(knot_envelope<D>(system));
   for (const TagPart<D>& part : linear.tags) {
     unknowns += part.layout.size;
@@ -323,8 +323,8 @@ JointCovariance covariance_by_knots(const JointSystem& system, const Linear<D>& 
   covariance.of_tag.assign(tags, Eigen::Matrix3d::Zero());
   parallel_for(tags, threads, [&](std::size_t j) {
     const TagPart<D>& part = linear.tags[j];
-    if (part.layout.place == 0) return;  // Its place is known.
-    // T⁻¹ + W S⁻¹ Wᵀ with W = T⁻¹ Cᵀ, of the place's rows only.
+    if (part.layout.place == 0) return;  // Its position is known.
+    // T⁻¹ + W S⁻¹ Wᵀ with W = T⁻¹ Cᵀ, for the position's rows only.
     const Eigen::MatrixXd columns =
         reduced.of_tag[j].solve(Eigen::MatrixXd::Identity(part.layout.size, part.layout.place));
     const Eigen::MatrixXd W_turned = part.coupling * columns;

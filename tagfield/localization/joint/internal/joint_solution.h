@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Solution of a JointSystem's normal equations, with the chain of knots eliminated first or the
-/// tags, whichever is less work.
+/// Solution of a JointSystem's normal equations, eliminating either the chain of knots or the tags
+/// first, whichever is less work.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,19 +11,19 @@
 
 namespace tagfield {
 
-/// How much the unknowns are to change.
+/// Step of the unknowns.
 struct Move {
   Eigen::VectorXd u;
   std::vector<Eigen::VectorXd> of_tag;
 };
 
-/// The step of Gauss and Newton's method, the tags' unknowns damped as Levenberg's.
+/// Gauss-Newton step with Levenberg's damping of the tags' unknowns.
 Move damped_move(const JointSystem& system, double damping, int threads);
 
-/// The inverse of the normal equations' matrix where the system stands, of the tags' places.
+/// Inverse of the normal equations' matrix at the current state, for the tags' positions.
 JointCovariance inverse_of_normal(const JointSystem& system, int threads);
 
-/// ln of that matrix' determinant.
+/// ln of the determinant of that matrix.
 double log_determinant_of_normal(const JointSystem& system, int threads);
 
 }  // namespace tagfield

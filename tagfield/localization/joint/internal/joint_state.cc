@@ -23,21 +23,21 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Knots a time constant: straight lines between them miss 2 % of the variance.
+/// Knots per time constant: linear interpolation misses 2 % of the variance.
 constexpr double kStateKnots = 40.0;
-constexpr double kMostWork = 3e10;  ///< Multiplications a solution: about a second.
+constexpr double kMostWork = 3e10;  ///< Multiplications per solution: about a second.
 constexpr double kKnotsToLook = 1000.0;
 
 PoseErrorModel model_of(const LocalizationProblem& problem) {
   return problem.pose_error.value_or(kUsualPoseError);
 }
 
-bool has_told_covariances(const LocalizationProblem& problem) {
+bool has_stated_covariances(const LocalizationProblem& problem) {
   return std::any_of(problem.tracks.begin(), problem.tracks.end(),
                      [](const auto& named) { return !named.second.covariance.empty(); });
 }
 
-/// Periods in which anything is read, parted by pauses longer than that.
+/// Periods with reads, separated by pauses longer than `longest_pause_s`.
 std::vector<Period> reading_periods(const LocalizationProblem& problem, double longest_pause_s) {
   std::vector<double> times_s;
   for (const auto& [tag, of_tag] : problem.samples) {
@@ -46,8 +46,8 @@ std::vector<Period> reading_periods(const LocalizationProblem& problem, double l
   return periods_of(std::move(times_s), longest_pause_s);
 }
 
-/// Multiplications that factorizing the knots' matrix takes, the tags eliminated: each tag couples
-/// all knots by its reads, from the first of them on.
+/// Multiplications to factorize the knots' matrix after eliminating the tags: each tag couples all
+/// knots of its reads, starting with the first.
 double work_of(const LocalizationProblem& problem, const PoseKnots& knots) {
   std::vector<Index> firsts(static_cast<std::size_t>(knots.count()));
   for (std::size_t k = 1; k < firsts.size(); ++k) firsts[k] = static_cast<Index>(k) - 1;
@@ -72,8 +72,8 @@ double work_of(const LocalizationProblem& problem, const PoseKnots& knots) {
   return work_of_factors(firsts) * std::pow(knots.size, 3.0);
 }
 
-/// Time between knots, finer where few tags make that cheap, and wider where many reads of the same
-/// tags long after each other make the knots' own system large.
+/// Time between knots: finer if few tags make that cheap, and wider if reads of the same tags over
+/// a long time make the knots' system large.
 double knot_spacing(const LocalizationProblem& problem, std::size_t tags,
                     const PoseErrorModel& model) {
   constexpr Index kUnknownsOfTag = 4;
@@ -85,16 +85,17 @@ double knot_spacing(const LocalizationProblem& problem, std::size_t tags,
       static_cast<Index>(2.0 * duration / fine) + 2 * static_cast<Index>(periods.size());
   const auto of_tags = static_cast<Index>(tags) * kUnknownsOfTag;
   if (eliminates_knots_first(unknowns, of_tags, 2.0 * kMostWork)) return fine;
-  // The envelope's work goes with the cube of the number of knots, so a look at wide ones will do.
+  // The envelope's work grows with the cube of the number of knots, so an estimate with wide
+  // spacing suffices.
   const double wide = std::max(fine, duration / kKnotsToLook);
   const double work = work_of(problem, make_knots(problem, &model, wide));
   return std::max(fine, wide * std::cbrt(work / kMostWork));
 }
 
-/// Covariances that come with the poses count only where no model was given.
+/// Covariances that come with the poses are used only if no model was given.
 PoseKnots knots_of(const LocalizationProblem& problem, const PoseErrorModel& model,
                    double spacing_s) {
-  const bool told = !problem.pose_error && has_told_covariances(problem);
+  const bool told = !problem.pose_error && has_stated_covariances(problem);
   PoseKnots knots = make_knots(problem, told ? nullptr : &model, spacing_s);
   knots.time_constant_s = model.time_constant_s;
   return knots;
@@ -116,7 +117,7 @@ JointTag joint_tag(const LocalizationProblem& problem, const std::string& tag,
   return joint;
 }
 
-/// Residuals of one tag where the system stands [m], in the order of its reads.
+/// Residuals of one tag at the current state [m], in the order of its reads.
 Eigen::ArrayXd residuals_of(const JointSystem& system, const JointTag& tag) {
   Eigen::ArrayXd residuals(tag.phases.size());
   for (std::size_t s = 0; s < tag.phases.spans.size(); ++s) {
@@ -128,7 +129,7 @@ Eigen::ArrayXd residuals_of(const JointSystem& system, const JointTag& tag) {
   return residuals;
 }
 
-/// Phase noise from residuals of neighbouring reads of all tags.
+/// Phase noise from differences of neighbouring residuals of all tags.
 double noise_of_neighbours(const JointSystem& system) {
   constexpr std::size_t kFewest = 30;
   std::vector<double> all;
@@ -139,7 +140,7 @@ double noise_of_neighbours(const JointSystem& system) {
   return all.size() < kFewest ? system.noise_rad : noise_of_differences(std::move(all));
 }
 
-/// Tags whose residuals are far greater than noise (reflections, a tag that moves) count for less.
+/// Reduces the weight of tags with residuals far above the noise (reflections, a moving tag).
 void weigh(JointSystem& system) {
   constexpr double kTolerated = 2.0;
   for (JointTag& tag : system.tags) {
@@ -156,7 +157,7 @@ void weigh(JointSystem& system) {
   }
 }
 
-/// The tag's samples and problem as if the corrected poses were the believed ones.
+/// Fit of one tag as if the corrected poses were the believed ones.
 UnwrappedFit fit_corrected(const JointState& state, std::size_t index) {
   const JointSystem& system = state.system;
   const SamplesOfTag corrected =
@@ -164,7 +165,7 @@ UnwrappedFit fit_corrected(const JointState& state, std::size_t index) {
   return fit_unwrapped(*state.problem, system.tags[index].id, corrected);
 }
 
-/// The wrapped fit with corrected poses from where the tag stands.
+/// Wrapped fit with corrected poses, starting from the tag's current position.
 JointTag wrapped_tag(const JointState& state, std::size_t index) {
   const JointSystem& system = state.system;
   const JointTag& tag = system.tags[index];
@@ -186,7 +187,8 @@ JointTag wrapped_tag(const JointState& state, std::size_t index) {
   return wrapped;
 }
 
-/// Whether whole cycles can be told: the wrapped phases fit about as well as the unwrapped ones.
+/// Whether whole cycles can be resolved: the wrapped phases fit about as well as the unwrapped
+/// ones.
 bool fits_as_well(const JointTag& wrapped, const JointTag& unwrapped) {
   constexpr double kWorse = 1.3;
   const auto reads = static_cast<double>(unwrapped.phases.size());
@@ -196,7 +198,7 @@ bool fits_as_well(const JointTag& wrapped, const JointTag& unwrapped) {
          kWorse * unwrapped.fit.cost / freedom;
 }
 
-/// What is known before any of so many tags is taken up.
+/// Initial state for a given number of tags, before any is added.
 JointState without_tags(const LocalizationProblem& problem, std::size_t tags) {
   JointState state;
   state.problem = &problem;
@@ -300,7 +302,8 @@ bool go_on_from(JointState& state, const BestFits& best, double better, int thre
     if (tag.phases.unwrapped) {
       tag.fit.offsets = offsets_at(tag.phases, tag.height, best[i]->unknowns);
     } else {
-      // Wrapped ones lead to a place from near it alone, with offsets of the corrected poses.
+      // Wrapped phases converge to a position only from nearby, with offsets of the corrected
+      // poses.
       tag = wrapped_tag(state, i);
     }
     any = true;
@@ -311,7 +314,7 @@ bool go_on_from(JointState& state, const BestFits& best, double better, int thre
   return true;
 }
 
-void find_better_places(JointState& state, int threads) {
+void find_better_positions(JointState& state, int threads) {
   constexpr int kMostRounds = 3;
   constexpr double kBetter = 0.85;
   for (int round = 0; round < kMostRounds; ++round) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The steps of the joint estimate.
+/// Steps of the joint estimate.
 #pragma once
 
 #include <functional>
@@ -16,68 +16,69 @@
 
 namespace tagfield {
 
-/// Rounds of minimize() from a place that is far off.
+/// Maximum rounds of minimize() from a distant start.
 inline constexpr int kMostRoundsOfJointFit = 25;
 
 struct JointState {
   const LocalizationProblem* problem = nullptr;
   JointSystem system;
-  std::vector<const SamplesOfTag*> samples;          ///< By tag of the system.
-  std::vector<std::vector<Candidate>> alternatives;  ///< Likewise: other places that may be.
-  std::map<std::string, TagEstimate> not_located;    ///< Tags that can't be in the system.
+  std::vector<const SamplesOfTag*> samples;          ///< Per tag of the system.
+  std::vector<std::vector<Candidate>> alternatives;  ///< Per tag: other possible positions.
+  std::map<std::string, TagEstimate> not_located;    ///< Tags that cannot be in the system.
 };
 
-/// Each tag by itself on its unwrapped phase, and knots for the pose error.
+/// Fits each tag separately to its unwrapped phase, and sets up the knots of the pose error.
 JointState begin_jointly(const LocalizationProblem& problem, int threads);
 
-/// Phase noise [rad] before any fit, from how phases change from read to read.
+/// Phase noise [rad] before any fit, from phase changes between successive reads.
 double first_noise(const LocalizationProblem& problem);
 
-/// A tag that is about at a place; of a reference tag, just there.
+/// A tag at an approximate position; for a reference tag, the exact one.
 struct PlacedTag {
   std::string id;
   const SamplesOfTag* samples = nullptr;
   Eigen::Vector3d p_WT;
 };
 
-/// Tags on their wrapped phases from where they are placed, and knots for the pose error.
+/// Sets up tags with wrapped phases at their given positions, and the knots of the pose error.
 JointState begin_at(const LocalizationProblem& problem, const std::vector<PlacedTag>& placed);
 
-/// Takes these samples for the tag's own, on their wrapped phase, with the offsets that suit its
-/// place and the corrected poses. They must live as long as the state.
+/// Replaces the tag's samples and uses their wrapped phase, with the offsets that fit its position
+/// and the corrected poses. `samples` must outlive the state.
 void take_samples(JointState& state, std::size_t tag, const SamplesOfTag& samples);
 
-/// Minimizes, learns the phase noise from it, and gives tags that don't fit less weight.
+/// Minimizes, estimates the phase noise from the residuals, and reduces the weight of tags that do
+/// not fit.
 void fit_unwrapped_jointly(JointState& state, int threads);
 
-/// Strength and time constant of the pose error by which the reads are most likely.
+/// Sets the magnitude and time constant of the pose error that maximize the evidence.
 void learn_pose_error(JointState& state, int threads);
 
-/// Calls `use(index, fit)` for each tag but reference tags, by several threads: the tag by itself
-/// on its unwrapped phase, as if the corrected poses were the believed ones. No fit is kept, as
-/// those of all tags take as much memory as their reads.
+/// Calls `use(index, fit)` for each tag except reference tags, from several threads, with the fit
+/// of the tag alone to its unwrapped phase and the corrected poses. Fits are not kept, as those of
+/// all tags take as much memory as their reads.
 void for_each_corrected_fit(const JointState& state, int threads,
                             const std::function<void(std::size_t, const UnwrappedFit&)>& use);
 
-/// The best fit of each tag by itself, where there is one.
+/// The best separate fit of each tag, if any.
 using BestFits = std::vector<std::optional<TagFit>>;
 
-/// Puts tags to fits elsewhere that cost less than `better` of what they do where they stand, and
-/// minimizes. Whether there was any.
+/// Moves tags to fits at other positions that cost less than `better` times the current cost, and
+/// minimizes. Returns whether any tag was moved.
 bool go_on_from(JointState& state, const BestFits& best, double better, int threads);
 
-/// Looks for each tag's place anew from the corrected poses, and goes on from better ones.
-void find_better_places(JointState& state, int threads);
+/// Searches again for each tag's position with the corrected poses, and continues from better ones.
+void find_better_positions(JointState& state, int threads);
 
-/// Exchanges unwrapped phases by wrapped ones, tag by tag where they fit as well, and minimizes.
+/// Replaces unwrapped by wrapped phases, for each tag where they fit as well, and minimizes.
 void fit_wrapped_jointly(JointState& state, int threads);
 
-/// Other places that explain the reads nearly as well: of single tags with the corrected poses, and
-/// of all tags mirrored across a straight way, and of tags that were read from a straight stretch.
-/// Where one explains them far better than where a tag stands, the tag goes there first.
+/// Finds other positions that explain the reads nearly as well: of single tags with the corrected
+/// poses, of all tags mirrored across a straight path, and of tags read only from a straight
+/// section. If another position explains a tag's reads far better, the tag is moved there first.
 void find_alternatives(JointState& state, int threads);
 
-/// Where a tag stands, with the covariance of its unknowns.
+/// Current position of a tag, given the covariance of its unknowns.
 Candidate candidate_of(const JointSystem& system, std::size_t tag,
                        const Eigen::Matrix3d& covariance);
 

@@ -11,7 +11,7 @@
 namespace tagfield {
 namespace {
 
-/// Directions of the channels' waves, of the reads that are kept.
+/// Mean phases of the channels, over the reads that are kept.
 std::vector<double> middles_of(const std::vector<PhaseLeft>& left, const std::vector<bool>& out) {
   std::vector<std::complex<double>> sums;
   for (std::size_t i = 0; i < left.size(); ++i) {
@@ -28,8 +28,8 @@ std::vector<double> middles_of(const std::vector<PhaseLeft>& left, const std::ve
 
 PhaseSpread spread_of(const std::vector<PhaseLeft>& left, double noise_rad) {
   constexpr int kRounds = 3;
-  constexpr double kFar = 4.0;          // Deviations.
-  constexpr double kOfMedian = 1.4826;  // Deviations of a normal distribution a median of |x|.
+  constexpr double kFar = 4.0;          // Standard deviations.
+  constexpr double kOfMedian = 1.4826;  // σ of a normal distribution per median of |x|.
   constexpr double kMost = 1.0 / 7.0;   // Of the reads.
   PhaseSpread spread{std::vector<double>(left.size()), std::vector<bool>(left.size(), false)};
   auto& [off, out] = spread;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Reads whose phase is far from what is traced: near the edge of a shadow a path comes or goes
-/// within millimetres of the tag's place.
+/// Reads whose phase is far from the traced one: near a shadow boundary, a path appears or vanishes
+/// within millimetres of the tag's position.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +9,22 @@
 
 namespace tagfield {
 
-/// Of a read, what is left of its phase at a place [rad], and the channel whose offset is in it.
+/// Residual phase of a read at a position [rad], and the channel whose offset it includes.
 struct PhaseLeft {
   std::size_t channel = 0;
   double rad = 0.0;
 };
 
-/// Of reads, how far each is from the middle of its channel [rad], and which of them are outlying.
+/// Absolute deviation of each read from the mean phase of its channel [rad], and which reads are
+/// outliers.
 struct PhaseSpread {
   std::vector<double> off_rad;
   std::vector<bool> outlying;
 };
 
-/// Outlying are those over four deviations off: of the noise [rad], or of what is left in the
-/// median where that is more. Never more than a seventh of the reads: where more don't fit it is
-/// the place that is wrong, and none is named.
+/// Outliers deviate by more than four standard deviations: of the noise [rad], or from the median
+/// of the deviations if that is larger. If over a seventh of the reads deviate that much, the
+/// position is wrong and no read is marked.
 PhaseSpread spread_of(const std::vector<PhaseLeft>& left, double noise_rad);
 
 }  // namespace tagfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// When there were reads: periods of time, parted by pauses.
+/// Periods with reads, separated by pauses.
 #pragma once
 
 #include <vector>
@@ -9,17 +9,17 @@
 
 namespace tagfield {
 
-/// From the first of some reads to the last [s].
+/// Time from the first to the last of some reads [s].
 struct Period {
   double begin_s = 0.0;
   double end_s = 0.0;
 };
 
-/// Appends the samples' stamps [s].
+/// Appends the samples' timestamps [s].
 void append_times(const std::vector<PhaseSample>& samples, std::vector<double>& times_s);
 
-/// Periods of times in any order, in rising order: no two neighbours in one are further apart than
-/// `longest_pause_s`, and any two periods are.
+/// Groups unsorted times into periods, in ascending order: gaps within a period are at most
+/// `longest_pause_s`, gaps between periods longer.
 std::vector<Period> periods_of(std::vector<double> times_s, double longest_pause_s);
 
 }  // namespace tagfield

@@ -10,19 +10,19 @@
 namespace tagfield {
 namespace {
 
-constexpr int kLanes = 16;  ///< Places whose sums stay in registers.
+constexpr int kLanes = 16;  ///< Number of points whose sums stay in registers.
 static_assert(kTile % kLanes == 0);
 constexpr float kNearest = 0.01f;      ///< To a source [m].
-constexpr float kLeastField = 1e-12f;  ///< Of the waves' amplitudes: below it is nothing.
+constexpr float kLeastField = 1e-12f;  ///< Smaller field amplitudes count as zero.
 
 using Lane = float[kLanes];
 
-/// What the waves come to at some places.
+/// Sums of the waves at some points.
 struct LaneField {
   Lane re = {}, im = {};
   Lane amplitudes = {};
   Lane direct = {};
-  // Each wave times its direction, and the direction of the direct one.
+  // Sums of each wave times its direction, and the direction of the direct one.
   Lane x_re = {}, x_im = {}, y_re = {}, y_im = {}, z_re = {}, z_im = {};
   Lane straight_x = {}, straight_y = {}, straight_z = {};
 };
@@ -66,7 +66,7 @@ inline void field_of(const std::vector<NearReply::Wave>& waves, float turns_per_
   for (const NearReply::Wave& wave : waves) add_wave(wave, turns_per_metre, x, y, z, field);
 }
 
-/// What one way of the reply comes to.
+/// One direction of the reply, forward or backward.
 struct LaneWay {
   Lane cosine = {}, sine = {};  ///< Of the field's phase.
   Lane directness = {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Phases of traced replies at many places about the one that they were traced to, a tile of places
+/// Phases of traced replies at many points near the one that they were traced to, a tile of points
 /// at a time: the inner loop of the search in a known world.
 #pragma once
 
@@ -27,20 +27,20 @@ struct NearReply {
 
 NearReply near_reply(const TracedReply& reply, const Eigen::Vector3d& middle, double carrier_hz);
 
-/// By place of a tile.
+/// Values at each point of a tile.
 struct ReplyPhasors {
-  // Cosine and sine of the reply's phase as it is measured, −arg of forth and back: 2k|p − p_WA|
-  // and the bend.
+  // Cosine and sine of the reply's phase as measured, −arg of the forward and backward field: 2k|p
+  // − p_WA| plus the bend.
   Tile in_phase = Tile::Zero();
   Tile quadrature = Tile::Zero();
-  /// The lesser share of the direct path's amplitude in the sum of all paths', forth and back; 0
-  /// where it is blocked.
+  /// Share of the direct path's amplitude in the sum over all paths, the lesser of forward and
+  /// backward; 0 if it is blocked.
   Tile directness = Tile::Zero();
-  Tile slope = Tile::Zero();  ///< Of the bend: by how much 1/2k of it grows with the place [m/m].
+  Tile slope = Tile::Zero();  ///< Gradient magnitude of bend/2k [m/m].
 };
 
-/// At places (x, y, z) relative to the reply's middle [m]. The same to the last bit for each set of
-/// instructions; phasors to 10⁻³ where sources are within 100 m.
+/// Phasors at points (x, y, z) relative to the reply's middle [m]. Bit-identical for every
+/// instruction set; accurate to 10⁻³ if sources are within 100 m.
 ReplyPhasors reply_phasors(const NearReply& reply, const Tile& x, const Tile& y, const Tile& z,
                            InstructionSet set = instruction_sets().back());
 

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 using Index = Eigen::Index;
 
-/// By read of the phases; an antenna reads a tag once at a time.
+/// Per read of the phases; an antenna reads a tag at most once at a time.
 std::vector<std::pair<std::string, std::size_t>> samples_by_read(const TagPhases& phases,
                                                                  const SamplesOfTag& samples) {
   std::map<std::pair<std::string, double>, std::size_t> numbers;
@@ -32,7 +32,7 @@ std::vector<std::pair<std::string, std::size_t>> samples_by_read(const TagPhases
   return by_read;
 }
 
-/// What a read measured less what it would be at each place, where it tells something.
+/// Measured minus predicted phase of a read at each point, and whether it is used.
 struct Difference {
   Tile cosine;
   Tile sine;
@@ -62,7 +62,7 @@ void add(const Difference& read, PieceSums& sums) {
   sums.reads += read.used;
 }
 
-/// By piece; `read` gives the Difference of a read by its number.
+/// Sums per piece; `read` returns the Difference of a read by its index.
 template <class OfRead>
 std::vector<PieceSums> sums_of(const TracedLayout& layout, const OfRead& read) {
   std::vector<PieceSums> of_pieces;
@@ -104,9 +104,9 @@ TracedLayout layout_of(const TracedSearch& search) {
   TracedLayout layout;
   const TagPhases phases = coherent_reads(search.problem, search.sight.samples);
   if (phases.size() == 0) return layout;
-  // Places come in by the replies alone.
+  // Positions enter only through the replies.
   const double wavelength = 2.0 * search.problem.multiple() * longest_cycle(phases);
-  layout.reads = stretched_reads(phases, wavelength, 0.0, middle_of(phases));
+  layout.reads = segmented_reads(phases, wavelength, 0.0, middle_of(phases));
   layout.phase_rad = phases.value * phases.wavenumber;
   layout.sample = samples_by_read(phases, search.sight.samples);
   ChannelNumbers channels;
@@ -136,14 +136,14 @@ Tile likelihoods_at(const TracedSearch& search, const TracedLayout& layout,
   const auto read = [&](std::size_t i) {
     return difference(search, replies[i], layout.phase_rad[static_cast<Index>(i)], x, y, z);
   };
-  return stretch_likelihood(layout.reads, kForPlaces, sums_of(layout, read));
+  return segment_likelihood(layout.reads, kForPlaces, sums_of(layout, read));
 }
 
 Fit fit_at_middle(const TracedSearch& search, const TracedLayout& layout,
                   const std::vector<NearReply>& replies) {
   const Tile here = Tile::Zero();
   std::vector<Difference> reads;
-  std::vector<PhaseLeft> left;  // Of those in use.
+  std::vector<PhaseLeft> left;  // Of the used reads.
   for (std::size_t i = 0; i < replies.size(); ++i) {
     const double phase_rad = layout.phase_rad[static_cast<Index>(i)];
     reads.push_back(difference(search, replies[i], phase_rad, here, here, here));
@@ -163,7 +163,7 @@ Fit fit_at_middle(const TracedSearch& search, const TracedLayout& layout,
   }
   const std::vector<PieceSums> kept =
       sums_of(layout, [&](std::size_t i) -> const Difference& { return reads[i]; });
-  fit.without_outlying = static_cast<double>(stretch_likelihood(layout.reads, kForPlaces, kept)[0]);
+  fit.without_outlying = static_cast<double>(segment_likelihood(layout.reads, kForPlaces, kept)[0]);
   fit.attainable =
       static_cast<double>(likelihood_of_noise(layout.reads, kForPlaces, kept, search.noise_rad)[0]);
   fit.freedom = fit.attainable / -std::log(-std::expm1(-search.noise_rad * search.noise_rad));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// How likely places of a tag are in a known world, by the phases less what its paths do to them.
+/// Likelihood of a tag's position in a known world, from the phases without their bends.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,57 +9,57 @@
 #include <utility>
 #include <vector>
 
-#include "tagfield/localization/holograms/stretches.h"
+#include "tagfield/localization/holograms/segments.h"
 #include "tagfield/localization/joint/internal/bends.h"
 #include "tagfield/localization/joint/internal/reply_phasors.h"
 
 namespace tagfield {
 
-/// One tag's search.
+/// Search for one tag.
 struct TracedSearch {
   const LocalizationProblem& problem;
   const Sight& sight;
-  double least_directness = 0.0;  ///< Of replies that are used.
+  double least_directness = 0.0;  ///< Minimum, of used replies.
   double noise_rad = 0.0;         ///< Of the phases.
 };
 
-/// Reads laid out once for all places.
+/// Reads laid out once for all positions.
 struct TracedLayout {
-  StretchedReads reads;
-  Eigen::ArrayXd phase_rad;  ///< As measured, by read.
-  /// By read: its antenna, and which of that antenna's samples it is.
+  SegmentedReads reads;
+  Eigen::ArrayXd phase_rad;  ///< As measured, per read.
+  /// Per read: its antenna, and the index in that antenna's samples.
   std::vector<std::pair<std::string, std::size_t>> sample;
-  std::vector<std::size_t> channel;  ///< By read, as ChannelNumbers has them.
+  std::vector<std::size_t> channel;  ///< Per read, from ChannelNumbers.
 };
 
 TracedLayout layout_of(const TracedSearch& search);
 
-/// Traced to `middle` [m], by read of the layout.
+/// Replies traced to `middle` [m], per read of the layout.
 std::vector<NearReply> replies_about(const TracedSearch& search, const TracedLayout& layout,
                                      const std::string& tag, const Eigen::Vector3d& middle);
 
-/// ln of the likelihoods of the tag at places (x, y, z) relative to the middle that the replies
-/// were traced to [m], with their bends taken out. Reads that hardly came the direct way, or near a
-/// null of the field, tell nothing.
+/// ln of the likelihoods of the tag at points (x, y, z) relative to the middle that the replies
+/// were traced to [m], with bends removed. Reads with little of the direct path or near a null of
+/// the field are not used.
 Tile likelihoods_at(const TracedSearch& search, const TracedLayout& layout,
                     const std::vector<NearReply>& replies, const Tile& x, const Tile& y,
                     const Tile& z);
 
-/// How well a place explains the reads: ln of its likelihood without outlying reads (outlying.h),
-/// and what that would be if only noise were left of them.
+/// Goodness of fit of a position: ln of its likelihood without outlying reads (outlying.h), and
+/// what that would be if only noise remained.
 struct Fit {
   double without_outlying = 0.0;
   double attainable = 0.0;
-  double freedom = 0.0;  ///< Independent samples that these reads come to.
-  /// Squares of what is left of the phases over the noise's, summed: of outlying reads, and of
-  /// those that tell nothing here, 16.
+  double freedom = 0.0;  ///< Number of independent samples in these reads.
+  /// Sum of squared residual phases over the noise variance, each at most 16; reads not used here
+  /// count 16.
   double cost = 0.0;
-  // The same of the reads that are not outlying, and what it comes to where only noise is left.
+  // The same sum over the reads that are not outliers, and its value if only noise remains.
   double kept_cost = 0.0;
   double cost_of_noise = 0.0;
 };
 
-/// At the place that the replies were traced to.
+/// Fit at the position that the replies were traced to.
 Fit fit_at_middle(const TracedSearch& search, const TracedLayout& layout,
                   const std::vector<NearReply>& replies);
 

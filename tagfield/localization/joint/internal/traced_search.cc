@@ -14,21 +14,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-using Place = LikelyPlace;
+using Place = LikelyPosition;
 
 bool is_likelier(const Place& a, const Place& b) { return a.log_likelihood > b.log_likelihood; }
 
-/// The best first.
+/// Best first.
 using Places = std::vector<Place>;
 
-/// A square of places, `step` [m] apart.
+/// Square grid of points, `step` [m] apart.
 struct Square {
   Vector3d middle;
   int steps = 1;  ///< To each side.
   double step = 0.0;
 };
 
-/// The places of a square, with replies traced to `origin`, about there.
+/// Points of a square, evaluated with replies traced to the nearby `origin`.
 Places look_about(const TracedSearch& search, const TracedLayout& layout,
                   const std::vector<NearReply>& replies, const Vector3d& origin,
                   const Square& square) {
@@ -53,7 +53,7 @@ Places look_about(const TracedSearch& search, const TracedLayout& layout,
   return all;
 }
 
-/// Those at least so far from better ones [m].
+/// Positions at least `distance` [m] from better ones.
 Places apart(const Places& all, double distance, std::size_t count) {
   Places kept;
   for (const Place& one : all) {
@@ -82,7 +82,7 @@ Sight some_of(const Sight& sight, std::size_t count) {
 constexpr std::size_t kFewReads = 100;
 constexpr std::size_t kManyReads = 300;
 
-/// A tag's search by some of its reads.
+/// Search for a tag with some of its reads.
 struct Look {
   Look(const TracedSearch& search, std::size_t count)
       : sight(some_of(search.sight, count)),
@@ -96,12 +96,12 @@ struct Look {
   TracedLayout layout;
 };
 
-/// From a place uphill. Replies are traced anew where it led, as paths come and go, but not for
-/// each step: in a large world tracing takes most of the time.
+/// Climbs from a position. Replies are traced again where the climb has led, as paths appear and
+/// vanish, but not at each step: in a large world, tracing takes most of the time.
 Place climb(const TracedSearch& search, const TracedLayout& layout, const std::string& tag,
             const Place& from, const std::vector<double>& steps_m) {
   constexpr int kMostTraced = 3;
-  constexpr int kMostMoves = 4;       // A step's.
+  constexpr int kMostMoves = 4;       // Per step length.
   constexpr double kStillHere = 2.0;  // Of the finest steps.
   Place best = from;
   for (int traced = 0; traced < kMostTraced; ++traced) {
@@ -112,7 +112,7 @@ Place climb(const TracedSearch& search, const TracedLayout& layout, const std::s
         const Place next = look_about(search, layout, here, origin, {best.p_WT, 2, step}).front();
         const double moved = (next.p_WT - best.p_WT).norm();
         best = next;
-        // Within the square there is no need to look further out.
+        // Inside the square: no need to search further out.
         if (moved < 1.5 * step) break;
       }
     }
@@ -121,28 +121,28 @@ Place climb(const TracedSearch& search, const TracedLayout& layout, const std::s
   return best;
 }
 
-/// A search with few reads, square by square, as paths come and go; the better places are then
-/// looked at with many.
+/// Search with few reads, square by square, as paths appear and vanish; the best positions are then
+/// refined with many.
 class FarSearch {
  public:
   FarSearch(const TracedSearch& search, const std::string& tag)
       : tag_(tag), few_(search, kFewReads), many_(search, kManyReads) {}
 
-  /// Whether there is a better place than in all squares before.
+  /// Searches a square. Returns whether it has a better position than all squares before.
   bool look_at(const Square& square) {
     const std::vector<NearReply> replies =
         replies_about(few_.search, few_.layout, tag_, square.middle);
     const Places here = look_about(few_.search, few_.layout, replies, square.middle, square);
     const bool is_better = found_.empty() || is_likelier(here.front(), best_);
     if (is_better) best_ = here.front();
-    // Of one square no more can be of use.
+    // No more positions of one square can be of use.
     const auto count = static_cast<std::ptrdiff_t>(std::min(here.size(), kOfSquare));
     found_.insert(found_.end(), here.begin(), here.begin() + count);
     return is_better;
   }
 
-  /// The best place so far, closer, if no place can be much likelier: its reads leave hardly more
-  /// than noise.
+  /// The best position so far, refined, if no other can be much likelier: hardly more than noise
+  /// remains there.
   [[nodiscard]] std::optional<Place> settled() const {
     constexpr double kMaybe = 0.85;
     const Place place = begun(best_);
@@ -152,7 +152,7 @@ class FarSearch {
     return is_settled(fit_of(many_, there)) ? std::optional(there) : std::nullopt;
   }
 
-  /// The best of several apart from each other, closer, the best first.
+  /// The best distinct positions, refined, best first.
   [[nodiscard]] Places best_of_all() {
     constexpr std::size_t kBegun = 8;
     constexpr std::size_t kCloser = 3;
@@ -187,7 +187,7 @@ class FarSearch {
   Place best_;
 };
 
-/// How a search is laid out.
+/// Layout of a search.
 struct Grid {
   int steps = 1;  ///< To each side, of its squares.
   double step = 0.0;
@@ -197,7 +197,7 @@ struct Grid {
 constexpr Grid kNearGrid{10, 0.012};
 constexpr Grid kFarGrid{10, 0.024};
 
-/// The squares of a ring about a middle, so many squares out.
+/// Squares of the ring `ring` squares out from a middle.
 std::vector<Square> ring_of(const Vector3d& middle, int ring, const Grid& grid) {
   std::vector<Square> squares;
   for (int i = -ring; i <= ring; ++i) {
@@ -209,9 +209,9 @@ std::vector<Square> ring_of(const Vector3d& middle, int ring, const Grid& grid) 
   return squares;
 }
 
-/// The likeliest places up to `reach` [m] away, ring by ring outwards until one explains all.
-LikelyPlaces search_outwards(const TracedSearch& search, const std::string& tag,
-                             const Vector3d& middle, double reach, const Grid& grid) {
+/// The likeliest positions up to `reach` [m] away, ring by ring outwards until one is settled.
+LikelyPositions search_outwards(const TracedSearch& search, const std::string& tag,
+                                const Vector3d& middle, double reach, const Grid& grid) {
   const double width = grid.width();
   FarSearch far(search, tag);
   const int rings = std::max(0, static_cast<int>(std::ceil(reach / width - 0.5)));
@@ -227,7 +227,7 @@ LikelyPlaces search_outwards(const TracedSearch& search, const std::string& tag,
   return {far.best_of_all(), false};
 }
 
-/// Where the antennas were at the strongest of the reads [m], in the mean over a twentieth of them.
+/// Mean antenna position over the strongest twentieth of the reads [m].
 Vector3d strongest_from(const SamplesOfTag& samples) {
   std::vector<const PhaseSample*> reads;
   for (const auto& [antenna, series] : samples) {
@@ -241,13 +241,13 @@ Vector3d strongest_from(const SamplesOfTag& samples) {
   return sum / static_cast<double>(reads.size());
 }
 
-/// Of fewer independent samples a wrong place may well explain most.
+/// With fewer independent samples, a wrong position may well explain most of them.
 constexpr double kFewestSamples = 10.0;
 
 }  // namespace
 
 bool is_settled(const Fit& fit) {
-  constexpr double kNearly = 0.97;  // About a fifth more than noise is left.
+  constexpr double kNearly = 0.97;  // About a fifth more than noise remains.
   return fit.freedom >= kFewestSamples && fit.without_outlying > kNearly * fit.attainable;
 }
 
@@ -262,22 +262,22 @@ Fit fit_at(const TracedSearch& search, const std::string& tag, const Vector3d& p
   return fit_at_middle(search, layout, replies_about(search, layout, tag, p_WT));
 }
 
-LikelyPlace climbed(const TracedSearch& search, const std::string& tag, const Vector3d& p_WT) {
+LikelyPosition climbed(const TracedSearch& search, const std::string& tag, const Vector3d& p_WT) {
   return climb(search, layout_of(search), tag, {p_WT, 0.0}, {0.004, 0.002, 0.001, 0.0005, 0.00025});
 }
 
-LikelyPlaces likeliest_about(const TracedSearch& search, const std::string& tag,
-                             const Vector3d& p_WT, double reach) {
+LikelyPositions likeliest_about(const TracedSearch& search, const std::string& tag,
+                                const Vector3d& p_WT, double reach) {
   return search_outwards(search, tag, p_WT, reach, kNearGrid);
 }
 
-Vector3d likeliest_place(const TracedSearch& search, const TagEstimate& estimate,
-                         double deviations) {
+Vector3d likeliest_position(const TracedSearch& search, const TagEstimate& estimate,
+                            double deviations) {
   constexpr double kFarthest = 0.84;  // [m]
   Place best{estimate.candidates.front().p_WT, -1.0};
   for (const Candidate& candidate : estimate.candidates) {
     const double reach = deviations * candidate.expected_error_m / std::sqrt(2.0);
-    const LikelyPlaces found =
+    const LikelyPositions found =
         likeliest_about(search, estimate.tag, candidate.p_WT, std::min(reach, kFarthest));
     if (found.is_settled) return found.places.front().p_WT;
     if (is_likelier(found.places.front(), best)) best = found.places.front();

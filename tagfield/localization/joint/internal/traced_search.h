@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Where a tag most likely is in a known world, looked for about a rough estimate.
+/// Search for a tag's most likely position in a known world, near a rough estimate.
 #pragma once
 
 #include <vector>
@@ -10,45 +10,45 @@
 
 namespace tagfield {
 
-struct LikelyPlace {
+struct LikelyPosition {
   Eigen::Vector3d p_WT = Eigen::Vector3d::Zero();
   double log_likelihood = 0.0;
 };
 
 Fit fit_at(const TracedSearch& search, const std::string& tag, const Eigen::Vector3d& p_WT);
 
-/// Whether no place can be much likelier: the reads leave hardly more than their noise there.
+/// Whether no other position can be much likelier: hardly more than noise remains there.
 bool is_settled(const Fit& fit);
 
-/// Whether a place may be claimed: of few independent samples only where they leave no more than
-/// noise, by χ².
+/// Whether a position may be reported: with few independent samples, only if no more than noise
+/// remains, by χ².
 bool is_believable(const Fit& fit);
 
-/// From `p_WT` [m] uphill in its plane to the nearest place that is likelier than all about it, to
-/// 0.25 mm, by all reads.
-LikelyPlace climbed(const TracedSearch& search, const std::string& tag,
-                    const Eigen::Vector3d& p_WT);
+/// Nearest local maximum of the likelihood, reached by climbing from `p_WT` [m] in its plane, to
+/// 0.25 mm, with all reads.
+LikelyPosition climbed(const TracedSearch& search, const std::string& tag,
+                       const Eigen::Vector3d& p_WT);
 
-/// The best first.
-struct LikelyPlaces {
-  std::vector<LikelyPlace> places;
+/// Best first.
+struct LikelyPositions {
+  std::vector<LikelyPosition> places;
   bool is_settled = false;
 };
 
-/// The likeliest places within `reach` [m], to 1 mm, at most three; or the first on the way
-/// outwards that is settled.
-LikelyPlaces likeliest_about(const TracedSearch& search, const std::string& tag,
-                             const Eigen::Vector3d& p_WT, double reach);
+/// At most three of the likeliest positions within `reach` [m], to 1 mm; or only the first settled
+/// one, searching outwards.
+LikelyPositions likeliest_about(const TracedSearch& search, const std::string& tag,
+                                const Eigen::Vector3d& p_WT, double reach);
 
-/// The likeliest place [m] about any of the estimate's candidates, of which there is at least one,
-/// to 1 mm: by the likelihood of stretches of the way (stretches.h) with the bends taken out,
-/// within so many deviations of a candidate, at most 0.84 m to each side; ring by ring outwards
-/// until one is settled.
-Eigen::Vector3d likeliest_place(const TracedSearch& search, const TagEstimate& estimate,
-                                double deviations);
+/// Likeliest position [m] near any of the estimate's candidates (at least one), to 1 mm: by the
+/// likelihood over sections of the path (segments.h) with bends removed, within `deviations`
+/// standard deviations of a candidate, at most 0.84 m to each side, ring by ring outwards until one
+/// is settled.
+Eigen::Vector3d likeliest_position(const TracedSearch& search, const TagEstimate& estimate,
+                                   double deviations);
 
-/// Likewise within 4 m of where the strongest reads are from, as high as `p_WT` [m]; where no place
-/// is likely at all, `p_WT`.
+/// As likeliest_position(), but within 4 m of the antenna positions of the strongest reads, at the
+/// height of `p_WT` [m]; `p_WT` if no position is likely at all.
 Eigen::Vector3d likeliest_anywhere(const TracedSearch& search, const std::string& tag,
                                    const Eigen::Vector3d& p_WT);
 

@@ -19,7 +19,8 @@ Sight sight_of(const JointState& state, const SamplesOfTag& samples) {
   return {samples, corrected_samples(*state.problem, state.system.knots, state.system.u, samples)};
 }
 
-/// By phase of a tag whose samples these are; an antenna reads a tag once at a time.
+/// Slopes per phase of the tag that the samples belong to; an antenna reads a tag at most once at a
+/// time.
 BendSlopes slopes_of(const JointState& state, const JointTag& tag, const Straightened& straight) {
   std::map<std::pair<std::string, double>, const Bend*> bends;
   for (const auto& [antenna, series] : straight.samples) {
@@ -29,7 +30,7 @@ BendSlopes slopes_of(const JointState& state, const JointTag& tag, const Straigh
     }
   }
   BendSlopes slopes;
-  slopes.p_WT = to_place(tag.height, tag.fit.unknowns);
+  slopes.p_WT = to_position(tag.height, tag.fit.unknowns);
   slopes.moved.resize(2, tag.phases.size());
   slopes.by_place.resize(3, tag.phases.size());
   slopes.by_antenna.resize(3, tag.phases.size());
@@ -44,7 +45,7 @@ BendSlopes slopes_of(const JointState& state, const JointTag& tag, const Straigh
   return slopes;
 }
 
-/// Takes the bends out where the state stands.
+/// Removes the bends at the current state.
 void straighten_all(WorldFit& fit, const MultipathOptions& options, int threads) {
   JointState& state = fit.state;
   const LocalizationProblem& problem = *state.problem;
@@ -52,7 +53,7 @@ void straighten_all(WorldFit& fit, const MultipathOptions& options, int threads)
   parallel_for(fit.given.size(), threads, [&](std::size_t i) {
     const JointTag& tag = state.system.tags[i];
     const Sight sight = sight_of(state, *fit.given[i]);
-    const Vector3d p = to_place(tag.height, tag.fit.unknowns);
+    const Vector3d p = to_position(tag.height, tag.fit.unknowns);
     next[i] = straightened(problem, sight, traced(problem, tag.id, sight.corrected, p), p,
                            options.least_directness, state.system.noise_rad);
   });
@@ -68,7 +69,7 @@ std::vector<Vector3d> places_of(const JointState& state) {
   std::vector<Vector3d> places;
   places.reserve(state.system.tags.size());
   for (const JointTag& tag : state.system.tags) {
-    places.push_back(to_place(tag.height, tag.fit.unknowns));
+    places.push_back(to_position(tag.height, tag.fit.unknowns));
   }
   return places;
 }
@@ -81,7 +82,7 @@ double farthest_move(const std::vector<Vector3d>& before, const std::vector<Vect
   return most;
 }
 
-/// Of the waves that add up at the tag's place with the corrected poses, less their bends.
+/// Coherent share at the tag's position with the corrected poses and the bends removed.
 double share_at(const JointState& state, std::size_t index) {
   const JointTag& tag = state.system.tags[index];
   const TagPhases phases =
@@ -89,7 +90,7 @@ double share_at(const JointState& state, std::size_t index) {
   return coherent_share(phases, tag.height, tag.fit.unknowns);
 }
 
-/// Less is a wrong place, or a wrong world: noise alone leaves e^(−σ²/2).
+/// Lower shares mean a wrong position or a wrong world: noise alone leaves e^(−σ²/2).
 double least_share(const JointState& state) {
   constexpr double kOfNoiseAlone = 0.85;
   return kOfNoiseAlone * std::exp(-0.5 * state.system.noise_rad * state.system.noise_rad);
@@ -104,7 +105,7 @@ bool any_fits(const std::vector<double>& weights) {
   return std::any_of(weights.begin(), weights.end(), fits_somewhat);
 }
 
-/// How far from its starts a tag that doesn't fit is looked for.
+/// Search radius around the starts of a tag that does not fit.
 enum class Reach { kFurther, kAnywhere };
 
 TracedSearch search_for(const JointState& state, const Sight& sight,
@@ -116,12 +117,13 @@ Fit fit_of(const WorldFit& fit, const MultipathOptions& options, std::size_t ind
   const JointState& state = fit.state;
   const JointTag& tag = state.system.tags[index];
   const Sight sight = sight_of(state, *fit.given[index]);
-  return fit_at(search_for(state, sight, options), tag.id, to_place(tag.height, tag.fit.unknowns));
+  return fit_at(search_for(state, sight, options), tag.id,
+                to_position(tag.height, tag.fit.unknowns));
 }
 
-/// Tags that don't fit are looked for anew, now that others tell the pose error.
+/// Searches again for tags that do not fit, now that others determine the pose error.
 void find_lost(WorldFit& fit, const MultipathOptions& options, Reach reach, int threads) {
-  constexpr double kFurther = 5.0;  // Deviations.
+  constexpr double kFurther = 5.0;  // Standard deviations.
   JointState& state = fit.state;
   parallel_for(fit.given.size(), threads, [&](std::size_t i) {
     JointTag& tag = state.system.tags[i];
@@ -130,20 +132,21 @@ void find_lost(WorldFit& fit, const MultipathOptions& options, Reach reach, int 
     const TracedSearch search = search_for(state, sight, options);
     const Vector3d there =
         reach == Reach::kFurther
-            ? likeliest_place(search, fit.starts[i], kFurther)
+            ? likeliest_position(search, fit.starts[i], kFurther)
             : likeliest_anywhere(search, tag.id, fit.starts[i].candidates.front().p_WT);
     tag.fit.unknowns = to_unknowns(tag.height, there);
     fit.looked_about[i] = 0;
   });
 }
 
-/// A step of the joint fit can lead over a ridge of a likelihood with many peaks, and a search end
-/// on a lesser one: each tag that leaves more than noise goes on from the best place about where it
-/// was and where it is, and once, late on, further about that, if it is clearly better.
+/// A step of the joint fit can cross a ridge of a likelihood with many peaks, and a search can end
+/// on a lesser peak: each tag with more than noise left moves to the best position near its
+/// previous and current ones, if clearly better. Late in the fit, a wider neighbourhood is searched
+/// once.
 void climb_all(WorldFit& fit, const std::vector<Vector3d>& before, const MultipathOptions& options,
                bool is_late, int threads) {
   constexpr double kAbout = 0.3;    // [m]
-  constexpr double kClearly = 6.0;  // Less of the cost.
+  constexpr double kClearly = 6.0;  // Minimum decrease of the cost.
   constexpr double kFar = 0.01;     // [m]
   JointState& state = fit.state;
   parallel_for(fit.given.size(), threads, [&](std::size_t i) {
@@ -151,14 +154,14 @@ void climb_all(WorldFit& fit, const std::vector<Vector3d>& before, const Multipa
     if (tag.fixed) return;
     const Sight sight = sight_of(state, *fit.given[i]);
     const TracedSearch search = search_for(state, sight, options);
-    const Vector3d now = to_place(tag.height, tag.fit.unknowns);
+    const Vector3d now = to_position(tag.height, tag.fit.unknowns);
     const Fit here = fit_at(search, tag.id, now);
     if (is_settled(here)) return;
     std::vector<Vector3d> places{now};
     if ((before[i] - now).norm() > kFar) places.push_back(before[i]);
     if (is_late && fit.looked_about[i] == 0 && fits_somewhat(fit_weight(state, i))) {
       fit.looked_about[i] = 1;
-      for (const LikelyPlace& about : likeliest_about(search, tag.id, now, kAbout).places) {
+      for (const LikelyPosition& about : likeliest_about(search, tag.id, now, kAbout).places) {
         places.push_back(about.p_WT);
       }
     }
@@ -173,8 +176,8 @@ void climb_all(WorldFit& fit, const std::vector<Vector3d>& before, const Multipa
   });
 }
 
-/// Where tags have gone on since the fit, their bends, slopes and offsets are those of the places
-/// where they were; and so are the weights of those that leave no more than noise now.
+/// Updates tags that have moved since the fit: their bends, slopes and offsets still belong to the
+/// old positions, as do the weights of those where only noise remains now.
 void come_to_rest(WorldFit& fit, const std::vector<Vector3d>& fitted,
                   const MultipathOptions& options, int threads) {
   JointState& state = fit.state;
@@ -203,7 +206,7 @@ void fit_through_world(WorldFit& fit, const MultipathOptions& options, int threa
     climb_all(fit, before, options, round > 2, threads);
     if (round == 1 && !state.problem->pose_error) learn_pose_error(state, threads);
     if (round == 2) {
-      // The reads of no tag fit this world: it is another one, or they are not what they seem.
+      // No tag's reads fit this world: it is a different one, or the reads are not what they seem.
       if (!any_fits(fit_weights(state, threads))) break;
       find_lost(fit, options, Reach::kFurther, threads);
     } else if (round == 4 && is_right_world(fit_weights(state, threads))) {

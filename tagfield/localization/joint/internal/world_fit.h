@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The rounds of a fit through a known world: what its paths do to the phases is taken out, tags
-/// and pose error are fitted together, and tags go on to places that are clearly likelier.
+/// Rounds of a fit in a known world: the effect of its paths on the phases is removed, tags and
+/// pose error are fitted jointly, and tags move to clearly likelier positions.
 #pragma once
 
 #include <vector>
@@ -12,31 +12,30 @@
 
 namespace tagfield {
 
-/// A fit under way.
+/// State of the fit.
 struct WorldFit {
   JointState state;
-  std::vector<TagEstimate> starts;         ///< By tag of the state, as are
-  std::vector<const SamplesOfTag*> given;  ///< the samples as they were measured,
-  std::vector<Straightened> straight;      ///< and without their bends;
-  /// and whether there was a look about where it is (by several threads, so no vector<bool>).
+  std::vector<TagEstimate> starts;         ///< Per tag of the state, as are
+  std::vector<const SamplesOfTag*> given;  ///< the measured samples,
+  std::vector<Straightened> straight;      ///< the samples without bends,
+  /// and whether its neighbourhood was searched (written by several threads, so no vector<bool>).
   std::vector<char> looked_about;
 };
 
-/// Traces and fits, again and again. Afterwards the tags' samples, slopes and offsets are of where
-/// they are.
+/// Traces and fits repeatedly. Afterwards, the tags' samples, slopes and offsets belong to their
+/// final positions.
 void fit_through_world(WorldFit& fit, const MultipathOptions& options, int threads);
 
-/// By tag: for how much its reads count in the fit, of 1 where only their noise is left; 0 where
-/// its waves don't add up.
+/// Weight of each tag's reads in the fit: 1 if only noise remains, 0 if its phasors do not add up.
 std::vector<double> fit_weights(const JointState& state, int threads);
 
-/// Whether a tag of that weight fits at all.
+/// Whether a tag of this weight fits at all.
 bool fits_somewhat(double weight);
 
-/// A wrong world fits a tag here and there, a right one most.
+/// Whether most tags fit: a wrong world only fits a few of them.
 bool is_right_world(const std::vector<double>& weights);
 
-/// By tag, how well its place explains its reads.
+/// Goodness of fit of each tag's position.
 std::vector<Fit> fits_of(const WorldFit& fit, const MultipathOptions& options, int threads);
 
 }  // namespace tagfield

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/localization/holograms/stretches.h"
+#include "tagfield/localization/holograms/segments.h"
 
 #include <algorithm>
 #include <array>
@@ -8,14 +8,14 @@
 #include <string>
 #include <utility>
 
-#include "tagfield/localization/holograms/stretch_sums.h"
+#include "tagfield/localization/holograms/segment_sums.h"
 
 namespace tagfield {
 namespace {
 
 using Index = Eigen::Index;
 
-/// How far an antenna has come at each of its reads [m], by read.
+/// Distance travelled by the antenna at each read [m].
 Eigen::ArrayXd travel_of(const TagPhases& phases) {
   std::map<std::string, std::vector<Index>> by_antenna;
   for (const TagPhases::Span& span : phases.spans) {
@@ -37,7 +37,7 @@ Eigen::ArrayXd travel_of(const TagPhases& phases) {
   return travel;
 }
 
-/// Which stretch of the shortest length a read is in.
+/// Reads of one channel within one of the shortest segments.
 struct Piece {
   std::string antenna;
   std::size_t span = 0;
@@ -60,14 +60,14 @@ std::vector<Piece> pieces_of(const TagPhases& phases, const Eigen::ArrayXd& trav
   return pieces;
 }
 
-/// Parts of the way with as many reads each, by time.
+/// Parts of the path, in time order, with equal numbers of reads.
 class Parts {
  public:
   explicit Parts(const TagPhases& phases) : time_s_(phases.time_s) {
     std::vector<double> sorted(phases.time_s.data(), phases.time_s.data() + phases.size());
     std::sort(sorted.begin(), sorted.end());
-    for (std::size_t k = 1; k < kWayParts; ++k) {
-      begins_.push_back(sorted[k * sorted.size() / kWayParts]);
+    for (std::size_t k = 1; k < kPathParts; ++k) {
+      begins_.push_back(sorted[k * sorted.size() / kPathParts]);
     }
   }
   [[nodiscard]] int of(Index read) const {
@@ -80,17 +80,17 @@ class Parts {
   std::vector<double> begins_;
 };
 
-/// A channel on a stretch of some length.
-struct StretchChannel {
+/// One channel on a segment of some length.
+struct SegmentChannel {
   std::string antenna;
   std::size_t span = 0;
-  std::int64_t number = 0;  ///< Of the stretch.
-  std::size_t sum = 0;      ///< Of the waves.
+  std::int64_t number = 0;  ///< Of the segment.
+  std::size_t sum = 0;      ///< Index of the phasor sum.
   std::vector<Aperture> pieces;
 };
 
-std::vector<StretchChannel> shortest_channels(const std::vector<Piece>& pieces) {
-  std::vector<StretchChannel> channels;
+std::vector<SegmentChannel> shortest_channels(const std::vector<Piece>& pieces) {
+  std::vector<SegmentChannel> channels;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& piece = pieces[i];
     channels.push_back({piece.antenna, piece.span, piece.number, i, {piece.reads}});
@@ -98,18 +98,18 @@ std::vector<StretchChannel> shortest_channels(const std::vector<Piece>& pieces) 
   return channels;
 }
 
-/// On stretches twice as long; the sums that these take are added to `all`.
-std::vector<StretchChannel> twice_as_long(const std::vector<StretchChannel>& channels,
-                                          StretchedReads& all) {
-  std::vector<StretchChannel> longer;
-  for (const StretchChannel& one : channels) {
+/// The channels on segments twice as long; the sums that they need are added to `all`.
+std::vector<SegmentChannel> twice_as_long(const std::vector<SegmentChannel>& channels,
+                                          SegmentedReads& all) {
+  std::vector<SegmentChannel> longer;
+  for (const SegmentChannel& one : channels) {
     const std::int64_t number = one.number / 2;
     if (longer.empty() || longer.back().span != one.span || longer.back().number != number) {
       longer.push_back(one);
       longer.back().number = number;
       continue;
     }
-    StretchChannel& other = longer.back();
+    SegmentChannel& other = longer.back();
     all.pairs.push_back({other.sum, one.sum});
     other.sum = all.reads.apertures.size() + all.pairs.size() - 1;
     other.pieces.insert(other.pieces.end(), one.pieces.begin(), one.pieces.end());
@@ -117,8 +117,8 @@ std::vector<StretchChannel> twice_as_long(const std::vector<StretchChannel>& cha
   return longer;
 }
 
-/// How far the antenna has come at each of the reads [m].
-std::vector<double> travels_in(const StretchChannel& channel, const Eigen::ArrayXd& travel) {
+/// Distance travelled by the antenna at each read of the channel [m].
+std::vector<double> travels_in(const SegmentChannel& channel, const Eigen::ArrayXd& travel) {
   std::vector<double> along;
   for (const Aperture& piece : channel.pieces) {
     for (Index i = piece.begin; i < piece.begin + piece.count; ++i) along.push_back(travel[i]);
@@ -126,7 +126,7 @@ std::vector<double> travels_in(const StretchChannel& channel, const Eigen::Array
   return along;
 }
 
-/// Enough to tell how many samples are independent.
+/// Subset large enough to estimate the number of independent samples.
 std::vector<double> thinned_out(std::vector<double> all) {
   constexpr std::size_t kEnough = 150;
   if (all.size() <= kEnough) return all;
@@ -137,44 +137,44 @@ std::vector<double> thinned_out(std::vector<double> all) {
   return some;
 }
 
-CoherentStretch stretch_of(const std::vector<const StretchChannel*>& channels,
+CoherentSegment segment_of(const std::vector<const SegmentChannel*>& channels,
                            const Eigen::ArrayXd& travel, double wavelength) {
-  CoherentStretch stretch;
+  CoherentSegment segment;
   std::vector<double> whole;
   double of_channels = 0.0;
-  for (const StretchChannel* channel : channels) {
+  for (const SegmentChannel* channel : channels) {
     std::vector<double> along = travels_in(*channel, travel);
-    stretch.reads += static_cast<float>(along.size());
+    segment.reads += static_cast<float>(along.size());
     whole.insert(whole.end(), along.begin(), along.end());
     of_channels += independent_samples(thinned_out(std::move(along)), wavelength);
-    stretch.channels.push_back(channel->sum);
+    segment.channels.push_back(channel->sum);
   }
-  // Channels that were read at the same places see the same reflections.
+  // Channels read at the same positions see the same reflections.
   const double all = channels.size() == 1
                          ? of_channels
                          : independent_samples(thinned_out(std::move(whole)), wavelength);
   const double offsets = static_cast<double>(channels.size());
-  stretch.freedom =
+  segment.freedom =
       static_cast<float>(std::max(0.0, of_channels - offsets) * std::min(1.0, all / of_channels));
-  return stretch;
+  return segment;
 }
 
-std::vector<CoherentStretch> stretches_of(const std::vector<StretchChannel>& channels,
+std::vector<CoherentSegment> intervals_of(const std::vector<SegmentChannel>& channels,
                                           const Eigen::ArrayXd& travel, double wavelength,
                                           const Parts& parts) {
-  std::map<std::pair<std::string, std::int64_t>, std::vector<const StretchChannel*>> numbers;
-  for (const StretchChannel& one : channels) numbers[{one.antenna, one.number}].push_back(&one);
-  std::vector<CoherentStretch> stretches;
-  for (const auto& [key, of_stretch] : numbers) {
-    CoherentStretch stretch = stretch_of(of_stretch, travel, wavelength);
-    stretch.part = parts.of(of_stretch.front()->pieces.front().begin);
-    if (stretch.freedom > 0.0f) stretches.push_back(std::move(stretch));
+  std::map<std::pair<std::string, std::int64_t>, std::vector<const SegmentChannel*>> numbers;
+  for (const SegmentChannel& one : channels) numbers[{one.antenna, one.number}].push_back(&one);
+  std::vector<CoherentSegment> segments;
+  for (const auto& [key, of_segment] : numbers) {
+    CoherentSegment segment = segment_of(of_segment, travel, wavelength);
+    segment.part = parts.of(of_segment.front()->pieces.front().begin);
+    if (segment.freedom > 0.0f) segments.push_back(std::move(segment));
   }
-  return stretches;
+  return segments;
 }
 
-/// Those of the pieces, and on from two to two.
-std::vector<PieceSums> all_sums(const StretchedReads& reads,
+/// Sums of the pieces, followed by those of the pairs.
+std::vector<PieceSums> all_sums(const SegmentedReads& reads,
                                 const std::vector<PieceSums>& of_pieces) {
   std::vector<PieceSums> sums = of_pieces;
   sums.reserve(of_pieces.size() + reads.pairs.size());
@@ -188,97 +188,97 @@ std::vector<PieceSums> all_sums(const StretchedReads& reads,
   return sums;
 }
 
-/// −f ln(1 − the share of the power that adds up), of the reads that count.
-Tile likelihood_of(const CoherentStretch& stretch, const std::vector<PieceSums>& sums) {
+/// −f ln(1 − share of the power that adds up), over the reads that count.
+Tile likelihood_of(const CoherentSegment& segment, const std::vector<PieceSums>& sums) {
   Tile power = Tile::Zero();
   Tile reads = Tile::Zero();
-  for (const std::size_t channel : stretch.channels) {
+  for (const std::size_t channel : segment.channels) {
     const PieceSums& sum = sums[channel];
     power += (sum.waves.in_phase.square() + sum.waves.quadrature.square()) / sum.reads.max(1.0f);
     reads += sum.reads;
   }
-  const Tile freedom = stretch.freedom / stretch.reads * reads;
+  const Tile freedom = segment.freedom / segment.reads * reads;
   return -freedom * (1.0f - power / reads.max(1.0f)).max(kLeastLeft).log();
 }
 
-/// Likewise, as if only `left` of each read's power were noise.
-Tile likelihood_with(const CoherentStretch& stretch, const std::vector<PieceSums>& sums,
+/// As above, but as if only the share `left` of each read's power were noise.
+Tile likelihood_with(const CoherentSegment& segment, const std::vector<PieceSums>& sums,
                      float left) {
   Tile offsets = Tile::Zero();
   Tile reads = Tile::Zero();
-  for (const std::size_t channel : stretch.channels) {
+  for (const std::size_t channel : segment.channels) {
     offsets += sums[channel].reads.min(1.0f);
     reads += sums[channel].reads;
   }
-  const Tile freedom = stretch.freedom / stretch.reads * reads;
+  const Tile freedom = segment.freedom / segment.reads * reads;
   return -freedom * (left * (1.0f - offsets / reads.max(1.0f))).max(kLeastLeft).log();
 }
 
-std::vector<const CoherentStretch*> chosen_stretches(const StretchedReads& reads,
-                                                     const StretchChoice& choice) {
-  std::vector<const CoherentStretch*> chosen;
+std::vector<const CoherentSegment*> chosen_segments(const SegmentedReads& reads,
+                                                    const SegmentChoice& choice) {
+  std::vector<const CoherentSegment*> chosen;
   for (int k = choice.first; k <= choice.last; ++k) {
-    for (const CoherentStretch& stretch : reads.stretches[static_cast<std::size_t>(k)]) {
-      if (choice.part == kWholeWay || stretch.part == choice.part) chosen.push_back(&stretch);
+    for (const CoherentSegment& segment : reads.segments[static_cast<std::size_t>(k)]) {
+      if (choice.part == kWholePath || segment.part == choice.part) chosen.push_back(&segment);
     }
   }
   return chosen;
 }
 
-Tile mean_over_lengths(const StretchChoice& choice, const Tile& sum) {
+Tile mean_over_lengths(const SegmentChoice& choice, const Tile& sum) {
   return sum / static_cast<float>(choice.last - choice.first + 1);
 }
 
-template <class OfStretch>
-Tile mean_over_lengths(const StretchedReads& reads, const StretchChoice& choice,
-                       const OfStretch& of_stretch) {
+template <class OfSegment>
+Tile mean_over_lengths(const SegmentedReads& reads, const SegmentChoice& choice,
+                       const OfSegment& of_segment) {
   Tile sum = Tile::Zero();
-  for (const CoherentStretch* stretch : chosen_stretches(reads, choice)) {
-    sum += of_stretch(*stretch);
+  for (const CoherentSegment* segment : chosen_segments(reads, choice)) {
+    sum += of_segment(*segment);
   }
   return mean_over_lengths(choice, sum);
 }
 
 }  // namespace
 
-StretchedReads stretched_reads(const TagPhases& phases, double wavelength, double height,
+SegmentedReads segmented_reads(const TagPhases& phases, double wavelength, double height,
                                const Eigen::Vector2d& middle) {
-  StretchedReads all;
+  SegmentedReads all;
   all.reads = search_reads(phases, kWholeAperture, height, middle);
   all.reads.apertures.clear();
   if (phases.size() == 0) return all;
   const Eigen::ArrayXd travel = travel_of(phases);
-  const std::vector<Piece> pieces = pieces_of(phases, travel, kShortestStretch * wavelength);
+  const std::vector<Piece> pieces = pieces_of(phases, travel, kShortestSegment * wavelength);
   const Parts parts(phases);
   all.reads.apertures.reserve(pieces.size());
   for (const Piece& piece : pieces) all.reads.apertures.push_back(piece.reads);
-  std::vector<StretchChannel> channels = shortest_channels(pieces);
-  for (std::size_t k = 0; k < kStretchLengths; ++k) {
+  std::vector<SegmentChannel> channels = shortest_channels(pieces);
+  for (std::size_t k = 0; k < kSegmentLengths; ++k) {
     if (k > 0) channels = twice_as_long(channels, all);
-    all.stretches[k] = stretches_of(channels, travel, wavelength, parts);
+    all.segments[k] = intervals_of(channels, travel, wavelength, parts);
   }
   return all;
 }
 
-Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice, const Tile& x,
+Tile segment_likelihood(const SegmentedReads& reads, const SegmentChoice& choice, const Tile& x,
                         const Tile& y, const Tile& z) {
-  const Tile sum = stretch_sums(reads, chosen_stretches(reads, choice), x, y, z);
+  const Tile sum = segment_sums(reads, chosen_segments(reads, choice), x, y, z);
   return mean_over_lengths(choice, sum);
 }
 
-Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice,
+Tile segment_likelihood(const SegmentedReads& reads, const SegmentChoice& choice,
                         const std::vector<PieceSums>& of_pieces) {
   const std::vector<PieceSums> sums = all_sums(reads, of_pieces);
   return mean_over_lengths(
-      reads, choice, [&](const CoherentStretch& stretch) { return likelihood_of(stretch, sums); });
+      reads, choice, [&](const CoherentSegment& segment) { return likelihood_of(segment, sums); });
 }
 
-Tile likelihood_of_noise(const StretchedReads& reads, const StretchChoice& choice,
+Tile likelihood_of_noise(const SegmentedReads& reads, const SegmentChoice& choice,
                          const std::vector<PieceSums>& of_pieces, double noise_rad) {
   const auto left = static_cast<float>(-std::expm1(-noise_rad * noise_rad));
   const std::vector<PieceSums> sums = all_sums(reads, of_pieces);
-  return mean_over_lengths(reads, choice, [&](const CoherentStretch& stretch) {
-    return likelihood_with(stretch, sums, left);
+  return mean_over_lengths(reads, choice, [&](const CoherentSegment& segment) {
+    return likelihood_with(segment, sums, left);
   });
 }
 

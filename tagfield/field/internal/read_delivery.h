@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What antennas' updates yield, told in order of time although it does not come so.
+/// Delivery of the output of antennas' updates to listeners in chronological order, although it is
+/// generated out of order.
 #pragma once
 
 #include <cstdint>
@@ -19,37 +20,39 @@
 
 namespace tagfield {
 
-/// Slots of an inventory go on between updates, so an antenna's update yields reads from before
-/// other antennas' updates. Reads are kept here until none earlier can come; all else is told at
-/// once.
-class Telling {
+/// Inventory slots continue between updates, so an antenna's update yields reads from before other
+/// antennas' updates. Reads are kept here until no earlier one can follow; all else is delivered
+/// immediately.
+class ReadDelivery {
  public:
-  explicit Telling(Outlets outlets) : outlets_(std::move(outlets)) {}
+  explicit ReadDelivery(Outlets outlets) : outlets_(std::move(outlets)) {}
 
   [[nodiscard]] const Outlets& outlets() const { return outlets_; }
 
   void add(const TagRead& read, double distance_m);
-  /// All that read_tags() reads with `antenna` at `p_WA` [m] at `stamp`. It is made when it is
-  /// told, a piece at a time, so that it need not go through memory; `tags` must stay as they are
-  /// until the next tell().
+  /// All reads that read_tags() yields for `antenna` at `p_WA` [m] at `stamp`. They are generated
+  /// on delivery, a piece at a time, so that they need not pass through memory; `tags` must not
+  /// change until the next tell().
   void add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
            const TagPopulation& tags, const Eigen::Vector3d& p_WA);
-  /// All of one update at `stamp`, in order: `replies` become empty. `tags` likewise.
+  /// All reads of one update at `stamp`, in order; clears `replies`. `tags` must not change, as
+  /// above.
   void add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
            const TagPopulation& tags, std::vector<TagReply>& replies);
-  /// `antenna`'s update at `stamp`, after its reads were added.
+  /// `antenna`'s update at `stamp`, to be added after its reads.
   void add(const std::shared_ptr<const AntennaInfo>& antenna, Time stamp,
            const RigidTransform& X_WA, const std::optional<RigidTransform>& X_PA);
-  /// A tag's place, from `stamp` on; `label` where it is new.
+  /// A tag's position, valid from `stamp` on; with `label` if it is new.
   void add(Time stamp, const TagPosition& tag, std::optional<std::string> label);
   void add_removed(Time stamp, const std::string& tag);
   void add_placed(Time stamp);
   void add_robot(const AntennaPose& robot);
 
-  /// Tells all but the reads after `until`, up to which no read will be added any more.
+  /// Delivers everything except the reads after `until`. No reads up to `until` may be added
+  /// afterwards.
   void tell(Time until);
 
-  /// How many reads were added; those that are made as they are told count from then on.
+  /// Number of reads added; those that are generated on delivery count from then on.
   [[nodiscard]] std::int64_t reads() const { return reads_; }
 
  private:
@@ -57,13 +60,13 @@ class Telling {
     TagRead read;
     double distance_m;
   };
-  /// Many reads as they were made: what listeners are told is put together one by one.
+  /// Many reads in compact form; the records for listeners are assembled one by one.
   struct Reads {
     std::shared_ptr<const FieldAntenna> antenna;
     const TagPopulation* tags;
     std::vector<TagReply> replies;
   };
-  /// Reads that are not made yet.
+  /// Reads that are not generated yet.
   struct Unmade {
     std::shared_ptr<const FieldAntenna> antenna;
     const TagPopulation* tags;
@@ -91,7 +94,7 @@ class Telling {
   void tell(Time stamp, const Read& read) const;
   void tell(Time stamp, const Reads& reads);
   void tell(Time stamp, const Unmade& unmade);
-  /// Makes reads, and counts them, some hundreds a call of `take`.
+  /// Generates reads and counts them, a few hundred per call of `take`.
   void make(Time stamp, const Unmade& unmade,
             const std::function<void(std::span<const TagReply>)>& take);
   void tell_together(const AntennaParameters& antenna, Time stamp, const TagPopulation& tags,
@@ -108,9 +111,9 @@ class Telling {
   std::vector<Event> events_;
   bool is_sorted_ = true;
   std::int64_t reads_ = 0;
-  std::vector<std::vector<TagReply>> spare_;       ///< Emptied, to be filled anew.
+  std::vector<std::vector<TagReply>> spare_;       ///< Emptied buffers, for reuse.
   std::vector<ReadBatch::Row> rows_;               ///< Kept to save allocations.
-  std::vector<DistanceBatch::Row> distance_rows_;  ///< Likewise.
+  std::vector<DistanceBatch::Row> distance_rows_;  ///< Same.
 };
 
 }  // namespace tagfield

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/localization/holograms/stretch_sums.h"
+#include "tagfield/localization/holograms/segment_sums.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,25 +12,25 @@
 namespace tagfield {
 namespace {
 
-/// Σ cos and Σ sin of some waves.
+/// Σ cos and Σ sin of some phasors.
 struct LaneSums {
   float in_phase[kWaveLanes];
   float quadrature[kWaveLanes];
 };
 
-/// Which sums stretches take, and of how many reads all are.
+/// Indices of the sums that segments use, and numbers of reads of all sums.
 struct SumsInUse {
   std::vector<std::size_t> pieces;
   std::vector<std::size_t> pairs;
   std::vector<float> reads;
 };
 
-SumsInUse sums_in(const StretchedReads& reads,
-                  const std::vector<const CoherentStretch*>& stretches) {
+SumsInUse sums_in(const SegmentedReads& reads,
+                  const std::vector<const CoherentSegment*>& segments) {
   const std::size_t pieces = reads.reads.apertures.size();
   std::vector<char> is_used(pieces + reads.pairs.size(), 0);
-  for (const CoherentStretch* stretch : stretches) {
-    for (const std::size_t sum : stretch->channels) is_used[sum] = 1;
+  for (const CoherentSegment* segment : segments) {
+    for (const std::size_t sum : segment->channels) is_used[sum] = 1;
   }
   for (std::size_t i = reads.pairs.size(); i-- > 0;) {
     if (is_used[pieces + i] == 0) continue;
@@ -56,30 +56,30 @@ inline void add(const LaneSums& one, const LaneSums& other, LaneSums& both) {
   }
 }
 
-inline void add_stretch(const CoherentStretch& stretch, const float* reads, const LaneSums* sums,
+inline void add_segment(const CoherentSegment& segment, const float* reads, const LaneSums* sums,
                         float* likelihood) {
   LaneRow shares = {};
-  for (const std::size_t channel : stretch.channels) {
+  for (const std::size_t channel : segment.channels) {
     LaneRow in_phase;
     LaneRow quadrature;
     load(sums[channel].in_phase, in_phase);
     load(sums[channel].quadrature, quadrature);
-    const float each = 1.0f / (reads[channel] * stretch.reads);
+    const float each = 1.0f / (reads[channel] * segment.reads);
     shares += each * (in_phase * in_phase + quadrature * quadrature);
   }
   float share[kWaveLanes];
   store(shares, share);
   for (int k = 0; k < kWaveLanes; ++k) {
     const float left = std::max(1.0f - share[k], kLeastLeft);
-    likelihood[k] -= stretch.freedom * lane_log(left);
+    likelihood[k] -= segment.freedom * lane_log(left);
   }
 }
 
 }  // namespace
 
-Tile stretch_sums(const StretchedReads& reads, const std::vector<const CoherentStretch*>& stretches,
+Tile segment_sums(const SegmentedReads& reads, const std::vector<const CoherentSegment*>& segments,
                   const Tile& x, const Tile& y, const Tile& z, InstructionSet set) {
-  const SumsInUse in_use = sums_in(reads, stretches);
+  const SumsInUse in_use = sums_in(reads, segments);
   const std::vector<Aperture>& pieces = reads.reads.apertures;
   std::vector<LaneSums> sums(pieces.size() + reads.pairs.size());
   Tile likelihoods;
@@ -94,8 +94,8 @@ Tile stretch_sums(const StretchedReads& reads, const std::vector<const CoherentS
         add(sums[reads.pairs[i][0]], sums[reads.pairs[i][1]], sums[pieces.size() + i]);
       }
       float likelihood[kWaveLanes] = {};
-      for (const CoherentStretch* stretch : stretches) {
-        add_stretch(*stretch, in_use.reads.data(), sums.data(), likelihood);
+      for (const CoherentSegment* segment : segments) {
+        add_segment(*segment, in_use.reads.data(), sums.data(), likelihood);
       }
       for (int k = 0; k < kWaveLanes; ++k) likelihoods.data()[first + k] = likelihood[k];
     }
@@ -128,7 +128,7 @@ double independent_samples(const std::vector<double>& along_m, double wavelength
         for (std::size_t k = 0; k < kLanes; ++k) {
           const std::size_t j = first + k;
           const double apart = angle - angles[j];
-          // sin(a − b) by those of a and b.
+          // sin(a − b) from sines and cosines of a and b.
           const double sinc = (sine * cosines[j] - cosine * sines[j]) / apart;
           const double square = choose(std::abs(apart) < kNear, 1.0, sinc * sinc);
           pairs[k] += choose(j < i, square, 0.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/files/tag_positions_csv.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 namespace tagfield {
 
-std::string tag_places_to_csv(const std::map<std::string, Eigen::Vector3d>& places) {
+std::string tag_positions_to_csv(const std::map<std::string, Eigen::Vector3d>& places) {
   std::string text = "tag,x_m,y_m,z_m\n";
   for (const auto& [tag, p] : places) {
     text += fmt::format("{},{},{},{}\n", csv_field(tag), p.x(), p.y(), p.z());
@@ -15,7 +15,7 @@ std::string tag_places_to_csv(const std::map<std::string, Eigen::Vector3d>& plac
   return text;
 }
 
-std::map<std::string, Eigen::Vector3d> read_tag_places_csv(const std::string& path) {
+std::map<std::string, Eigen::Vector3d> read_tag_positions_csv(const std::string& path) {
   const CsvTable table = read_csv(path);
   const std::size_t tag = table.column("tag");
   const auto xyz = table.position_columns();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/files/tag_positions_csv.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -15,11 +15,11 @@ using Places = std::map<std::string, Eigen::Vector3d>;
 
 Places places_of(const std::string& text) {
   const TemporaryFolder folder;
-  return read_tag_places_csv(folder.with("p.csv", text));
+  return read_tag_positions_csv(folder.with("p.csv", text));
 }
 
 TEST(TagPlacesToCsv, WritesARowATag) {
-  EXPECT_EQ(tag_places_to_csv({{"t2", {1.5, -2.0, 0.25}}, {"t1", {0.0, 0.0, 2.0}}}),
+  EXPECT_EQ(tag_positions_to_csv({{"t2", {1.5, -2.0, 0.25}}, {"t1", {0.0, 0.0, 2.0}}}),
             "tag,x_m,y_m,z_m\nt1,0,0,2\nt2,1.5,-2,0.25\n");
 }
 
@@ -30,7 +30,7 @@ RC_GTEST_PROP(TagPlacesCsv, ReadsBackWhatItWrote, ()) {
     const double x = 0.1 * (*rc::gen::inRange(-100, 100));
     places[odd_name()] = {x, 1.0 / (1.0 + x * x), -x};
   }
-  RC_ASSERT(places_of(tag_places_to_csv(places)) == places);
+  RC_ASSERT(places_of(tag_positions_to_csv(places)) == places);
 }
 
 TEST(ReadTagPlacesCsv, NamesColumnAndLineOfBadInput) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/field/internal/telling.h"
+#include "tagfield/field/internal/read_delivery.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 Time at_nanos(std::int64_t nanos) { return Time(Duration(nanos)); }
 
-/// Writes down what it is told.
+/// Records all notifications.
 struct Heard final : ReadListener, PoseListener, TruthListener {
   std::vector<std::string> words;
   std::vector<Time> stamps;
@@ -45,7 +45,7 @@ struct Heard final : ReadListener, PoseListener, TruthListener {
 
 struct Told {
   std::shared_ptr<Heard> heard = std::make_shared<Heard>();
-  Telling telling{outlets(heard)};
+  ReadDelivery delivery{outlets(heard)};
   static Outlets outlets(const std::shared_ptr<Heard>& heard) {
     Outlets all;
     attach(heard, all);
@@ -66,22 +66,22 @@ std::shared_ptr<const AntennaInfo> antenna(const std::string& name) {
   return std::make_shared<const AntennaInfo>(info);
 }
 
-TEST(Telling, KeepsBackReadsThatAreLaterAndPutsThemInOrder) {
+TEST(ReadDelivery, KeepsBackReadsThatAreLaterAndPutsThemInOrder) {
   Told told;
-  told.telling.add(read_at(20, "late"), 1.0);
-  told.telling.add(antenna("a"), at_nanos(30), {}, std::nullopt);
-  told.telling.add(read_at(10, "early"), 2.0);
-  told.telling.tell(at_nanos(15));
+  told.delivery.add(read_at(20, "late"), 1.0);
+  told.delivery.add(antenna("a"), at_nanos(30), {}, std::nullopt);
+  told.delivery.add(read_at(10, "early"), 2.0);
+  told.delivery.tell(at_nanos(15));
   EXPECT_EQ(told.heard->words,
             (std::vector<std::string>{"distance early", "read early", "truth a", "update a"}));
-  told.telling.add(antenna("b"), at_nanos(30), {}, RigidTransform{});
-  told.telling.tell(Time::max());
+  told.delivery.add(antenna("b"), at_nanos(30), {}, RigidTransform{});
+  told.delivery.tell(Time::max());
   EXPECT_EQ(told.heard->words, (std::vector<std::string>{"distance early", "read early", "truth a",
                                                          "update a", "distance late", "read late",
                                                          "pose b", "truth b", "update b"}));
 }
 
-TEST(Telling, TellsNothingTwiceThoughAListenerFails) {
+TEST(ReadDelivery, TellsNothingTwiceThoughAListenerFails) {
   struct Failing final : ReadListener {
     int calls = 0;
     void on_read(const TagRead&) override {
@@ -92,29 +92,29 @@ TEST(Telling, TellsNothingTwiceThoughAListenerFails) {
   const auto failing = std::make_shared<Failing>();
   Outlets outlets;
   attach(failing, outlets);
-  Telling telling(outlets);
-  telling.add(read_at(1, "a"), 1.0);
-  EXPECT_THROW(telling.tell(Time::max()), Error);
-  telling.tell(Time::max());
+  ReadDelivery delivery(outlets);
+  delivery.add(read_at(1, "a"), 1.0);
+  EXPECT_THROW(delivery.tell(Time::max()), Error);
+  delivery.tell(Time::max());
   EXPECT_EQ(failing->calls, 1);
 }
 
-// Against a stable sort of all: whatever comes in which order, between two calls nothing earlier
-// than what was told already.
-RC_GTEST_PROP(Telling, IsAStableSort, ()) {
+// Against a stable sort of all reads: in any order of arrival, as long as no read between two calls
+// is earlier than those already delivered.
+RC_GTEST_PROP(ReadDelivery, IsAStableSort, ()) {
   Told told;
   std::vector<TagRead> expected;
-  std::int64_t told_until = 0;
+  std::int64_t reported_until = 0;
   int made = 0;
   for (int round = 0; round < 5; ++round) {
     for (const int later : *rc::gen::container<std::vector<int>>(rc::gen::inRange(1, 30))) {
-      expected.push_back(read_at(told_until + later, std::to_string(made++)));
-      told.telling.add(expected.back(), 1.0);
+      expected.push_back(read_at(reported_until + later, std::to_string(made++)));
+      told.delivery.add(expected.back(), 1.0);
     }
-    told_until += *rc::gen::inRange(0, 20);
-    told.telling.tell(at_nanos(told_until));
+    reported_until += *rc::gen::inRange(0, 20);
+    told.delivery.tell(at_nanos(reported_until));
   }
-  told.telling.tell(Time::max());
+  told.delivery.tell(Time::max());
   std::stable_sort(expected.begin(), expected.end(),
                    [](const TagRead& a, const TagRead& b) { return a.stamp < b.stamp; });
   std::vector<std::string> words;
@@ -148,21 +148,21 @@ struct ThreeTags {
   TagPopulation tags{3.5};
 };
 
-TEST(Telling, TellsManyReadsAsItTellsThemOneByOne) {
+TEST(ReadDelivery, TellsManyReadsAsItTellsThemOneByOne) {
   const ThreeTags field;
   Told together;
   Told apart;
   for (const std::int64_t nanos : {5, 9}) {
     std::vector<TagReply> replies = ThreeTags::replies_at(nanos);
     for (const TagReply& reply : replies) {
-      apart.telling.add(to_read(field.antenna->parameters, field.tags.id(reply.slot), reply),
-                        reply.distance_m);
+      apart.delivery.add(to_read(field.antenna->parameters, field.tags.id(reply.slot), reply),
+                         reply.distance_m);
     }
-    together.telling.add(field.antenna, at_nanos(nanos), field.tags, replies);
+    together.delivery.add(field.antenna, at_nanos(nanos), field.tags, replies);
     EXPECT_TRUE(replies.empty());
     for (Told* const told : {&together, &apart}) {
-      told->telling.add(antenna("gate"), at_nanos(nanos), {}, std::nullopt);
-      told->telling.tell(at_nanos(nanos));
+      told->delivery.add(antenna("gate"), at_nanos(nanos), {}, std::nullopt);
+      told->delivery.tell(at_nanos(nanos));
     }
   }
   const std::vector<std::string> of_one_update = {"distance C", "distance A", "distance B",
@@ -171,12 +171,12 @@ TEST(Telling, TellsManyReadsAsItTellsThemOneByOne) {
   std::vector<std::string> of_both = of_one_update;
   of_both.insert(of_both.end(), of_one_update.begin(), of_one_update.end());
   EXPECT_EQ(together.heard->words, of_both);
-  // One by one, each distance is told right before its read.
+  // One by one, each distance is delivered directly before its read.
   EXPECT_EQ(apart.heard->words[0], "distance C");
   EXPECT_EQ(apart.heard->words[1], "read C");
   EXPECT_EQ(together.heard->distances_m, apart.heard->distances_m);
-  EXPECT_EQ(together.telling.reads(), 6);
-  EXPECT_EQ(apart.telling.reads(), 6);
+  EXPECT_EQ(together.delivery.reads(), 6);
+  EXPECT_EQ(apart.delivery.reads(), 6);
   ASSERT_EQ(apart.heard->reads.size(), 6U);
   ASSERT_EQ(together.heard->reads.size(), 6U);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -189,7 +189,7 @@ TEST(Telling, TellsManyReadsAsItTellsThemOneByOne) {
   }
 }
 
-/// `count` tags within reach of an antenna at the origin, which reads by the paper's model.
+/// `count` tags within range of an antenna at the origin, which uses the paper's model.
 struct ManyTags {
   explicit ManyTags(std::uint32_t count) {
     FieldAntenna made;
@@ -204,24 +204,24 @@ struct ManyTags {
   TagPopulation tags{3.5};
 };
 
-// What is made while it is told, a piece at a time, against all of it made at once.
-TEST(Telling, MakesReadsAsItTellsThem) {
+// Reads generated on delivery, a piece at a time, against all of them generated at once.
+TEST(ReadDelivery, MakesReadsAsItTellsThem) {
   const ManyTags field(1000);
   Told later;
-  later.telling.add(field.antenna, at_nanos(5), field.tags, Eigen::Vector3d::Zero());
-  EXPECT_EQ(later.telling.reads(), 0);
+  later.delivery.add(field.antenna, at_nanos(5), field.tags, Eigen::Vector3d::Zero());
+  EXPECT_EQ(later.delivery.reads(), 0);
   Told made;
   const std::vector<TagReply> replies =
       replies_of(field.antenna->parameters, Eigen::Vector3d::Zero(), at_nanos(5),
                  field.antenna->seed, field.tags);
   ASSERT_EQ(replies.size(), 1000U);
   for (const TagReply& reply : replies) {
-    made.telling.add(to_read(field.antenna->parameters, field.tags.id(reply.slot), reply),
-                     reply.distance_m);
+    made.delivery.add(to_read(field.antenna->parameters, field.tags.id(reply.slot), reply),
+                      reply.distance_m);
   }
   for (Told* const told : {&later, &made}) {
-    told->telling.tell(at_nanos(5));
-    EXPECT_EQ(told->telling.reads(), 1000);
+    told->delivery.tell(at_nanos(5));
+    EXPECT_EQ(told->delivery.reads(), 1000);
   }
   EXPECT_EQ(later.heard->distances_m, made.heard->distances_m);
   ASSERT_EQ(later.heard->reads.size(), 1000U);
@@ -235,32 +235,32 @@ TEST(Telling, MakesReadsAsItTellsThem) {
   }
 }
 
-TEST(Telling, MakesReadsOfWhereTagsWereThoughItTellsThemLater) {
+TEST(ReadDelivery, MakesReadsOfWhereTagsWereThoughItTellsThemLater) {
   ManyTags field(2);
   Told told;
-  told.telling.add(field.antenna, at_nanos(5), field.tags, Eigen::Vector3d::Zero());
-  told.telling.tell(at_nanos(4));
+  told.delivery.add(field.antenna, at_nanos(5), field.tags, Eigen::Vector3d::Zero());
+  told.delivery.tell(at_nanos(4));
   EXPECT_TRUE(told.heard->words.empty());
-  EXPECT_EQ(told.telling.reads(), 2);
+  EXPECT_EQ(told.delivery.reads(), 2);
   field.tags.remove(0);
   field.tags.move(1, {3.0, 0.0, 0.0});
-  told.telling.tell(at_nanos(5));
+  told.delivery.tell(at_nanos(5));
   EXPECT_EQ(told.heard->words,
             (std::vector<std::string>{"distance T0", "read T0", "distance T1", "read T1"}));
   EXPECT_DOUBLE_EQ(told.heard->distances_m[1], std::hypot(1.001, 0.5));
-  EXPECT_EQ(told.telling.reads(), 2);
+  EXPECT_EQ(told.delivery.reads(), 2);
 }
 
-TEST(Telling, KeepsTheNameOfATagThatWentBeforeItsReadIsTold) {
+TEST(ReadDelivery, KeepsTheNameOfATagThatWentBeforeItsReadIsTold) {
   ThreeTags field;
   Told told;
   std::vector<TagReply> replies = ThreeTags::replies_at(5);
-  told.telling.add(field.antenna, at_nanos(5), field.tags, replies);
-  told.telling.tell(at_nanos(4));
+  told.delivery.add(field.antenna, at_nanos(5), field.tags, replies);
+  told.delivery.tell(at_nanos(4));
   EXPECT_TRUE(told.heard->words.empty());
   field.tags.remove(2);
   field.tags.add(2, "D", Eigen::Vector3d::Zero());
-  told.telling.tell(at_nanos(5));
+  told.delivery.tell(at_nanos(5));
   EXPECT_EQ(told.heard->words, (std::vector<std::string>{"distance C", "read C", "distance A",
                                                          "read A", "distance B", "read B"}));
 }

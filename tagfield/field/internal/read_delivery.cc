@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/field/internal/telling.h"
+#include "tagfield/field/internal/read_delivery.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace tagfield {
 
-void Telling::push(Time stamp, What what) {
+void ReadDelivery::push(Time stamp, What what) {
   is_sorted_ = is_sorted_ && (events_.empty() || events_.back().stamp <= stamp);
   events_.push_back({stamp, std::move(what)});
 }
 
-void Telling::add(const TagRead& read, double distance_m) {
+void ReadDelivery::add(const TagRead& read, double distance_m) {
   ++reads_;
   push(read.stamp, Read{read, distance_m});
 }
 
-void Telling::add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
-                  const TagPopulation& tags, const Eigen::Vector3d& p_WA) {
+void ReadDelivery::add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
+                       const TagPopulation& tags, const Eigen::Vector3d& p_WA) {
   push(stamp, Unmade{antenna, &tags, p_WA});
 }
 
-void Telling::add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
-                  const TagPopulation& tags, std::vector<TagReply>& replies) {
+void ReadDelivery::add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
+                       const TagPopulation& tags, std::vector<TagReply>& replies) {
   if (replies.empty()) return;
   reads_ += static_cast<std::int64_t>(replies.size());
   Reads reads{antenna, &tags, {}};
@@ -34,32 +34,32 @@ void Telling::add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp
   push(stamp, std::move(reads));
 }
 
-void Telling::add(const std::shared_ptr<const AntennaInfo>& antenna, Time stamp,
-                  const RigidTransform& X_WA, const std::optional<RigidTransform>& X_PA) {
+void ReadDelivery::add(const std::shared_ptr<const AntennaInfo>& antenna, Time stamp,
+                       const RigidTransform& X_WA, const std::optional<RigidTransform>& X_PA) {
   push(stamp, Update{antenna, X_WA, X_PA});
 }
 
-void Telling::add(Time stamp, const TagPosition& tag, std::optional<std::string> label) {
+void ReadDelivery::add(Time stamp, const TagPosition& tag, std::optional<std::string> label) {
   push(stamp, Place{tag, std::move(label)});
 }
 
-void Telling::add_removed(Time stamp, const std::string& tag) { push(stamp, Removed{tag}); }
-void Telling::add_placed(Time stamp) { push(stamp, Placed{}); }
-void Telling::add_robot(const AntennaPose& robot) { push(robot.stamp, robot); }
+void ReadDelivery::add_removed(Time stamp, const std::string& tag) { push(stamp, Removed{tag}); }
+void ReadDelivery::add_placed(Time stamp) { push(stamp, Placed{}); }
+void ReadDelivery::add_robot(const AntennaPose& robot) { push(robot.stamp, robot); }
 
-void Telling::tell(Time /*stamp*/, const Read& read) const {
+void ReadDelivery::tell(Time /*stamp*/, const Read& read) const {
   const TagRead& told = read.read;
   const TrueDistance distance{told.stamp, told.antenna, told.tag, read.distance_m};
   for (const auto& listener : outlets_.truth) listener->on_distance(distance);
   for (const auto& listener : outlets_.reads) listener->on_read(told);
 }
 
-/// At most a few hundred, so that nothing leaves the cache on its way to the listeners.
-void Telling::tell_together(const AntennaParameters& antenna, Time stamp, const TagPopulation& tags,
-                            std::span<const TagReply> replies) {
+/// At most a few hundred reads, so that all data is still in the cache when the listeners get it.
+void ReadDelivery::tell_together(const AntennaParameters& antenna, Time stamp,
+                                 const TagPopulation& tags, std::span<const TagReply> replies) {
   rows_.resize(replies.size());
   distance_rows_.resize(replies.size());
-  // Member by member: a struct that is put together elsewhere first waits on its way here.
+  // Member by member, because copying a struct that was assembled elsewhere stalls here.
   for (std::size_t i = 0; i < replies.size(); ++i) {
     const TagReply& reply = replies[i];
     ReadBatch::Row& row = rows_[i];
@@ -79,7 +79,7 @@ void Telling::tell_together(const AntennaParameters& antenna, Time stamp, const 
   }
 }
 
-void Telling::tell(Time stamp, const Reads& reads) {
+void ReadDelivery::tell(Time stamp, const Reads& reads) {
   constexpr std::size_t kAtOnce = 256;
   const std::span<const TagReply> all(reads.replies);
   for (std::size_t begin = 0; begin < all.size(); begin += kAtOnce) {
@@ -88,8 +88,8 @@ void Telling::tell(Time stamp, const Reads& reads) {
   }
 }
 
-void Telling::make(Time stamp, const Unmade& unmade,
-                   const std::function<void(std::span<const TagReply>)>& take) {
+void ReadDelivery::make(Time stamp, const Unmade& unmade,
+                        const std::function<void(std::span<const TagReply>)>& take) {
   const FieldAntenna& antenna = *unmade.antenna;
   read_tags(antenna.parameters, unmade.p_WA, stamp, antenna.seed, *unmade.tags,
             [&](std::span<const TagReply> replies) {
@@ -98,13 +98,13 @@ void Telling::make(Time stamp, const Unmade& unmade,
             });
 }
 
-void Telling::tell(Time stamp, const Unmade& unmade) {
+void ReadDelivery::tell(Time stamp, const Unmade& unmade) {
   make(stamp, unmade, [&](std::span<const TagReply> replies) {
     tell_together(unmade.antenna->parameters, stamp, *unmade.tags, replies);
   });
 }
 
-void Telling::tell(Time stamp, const Update& update) const {
+void ReadDelivery::tell(Time stamp, const Update& update) const {
   const AntennaInfo& antenna = *update.antenna;
   if (update.X_PA) {
     for (const auto& listener : outlets_.poses) {
@@ -117,7 +117,7 @@ void Telling::tell(Time stamp, const Update& update) const {
   for (const auto& listener : outlets_.reads) listener->on_update(antenna, stamp);
 }
 
-void Telling::tell(Time /*stamp*/, const Place& place) const {
+void ReadDelivery::tell(Time /*stamp*/, const Place& place) const {
   for (const auto& listener : outlets_.truth) {
     if (place.label) {
       listener->on_tag_added(place.tag, *place.label);
@@ -127,27 +127,27 @@ void Telling::tell(Time /*stamp*/, const Place& place) const {
   }
 }
 
-void Telling::tell(Time /*stamp*/, const Removed& removed) const {
+void ReadDelivery::tell(Time /*stamp*/, const Removed& removed) const {
   for (const auto& listener : outlets_.truth) listener->on_tag_removed(removed.tag);
 }
 
-void Telling::tell(Time stamp, const Placed& /*placed*/) const {
+void ReadDelivery::tell(Time stamp, const Placed& /*placed*/) const {
   for (const auto& listener : outlets_.truth) listener->on_tags_placed(stamp);
 }
 
-void Telling::tell(Time /*stamp*/, const AntennaPose& robot) const {
+void ReadDelivery::tell(Time /*stamp*/, const AntennaPose& robot) const {
   for (const auto& listener : outlets_.truth) listener->on_robot_pose(robot);
 }
 
-bool Telling::is_kept(const Event& event, Time until) {
+bool ReadDelivery::is_kept(const Event& event, Time until) {
   const bool is_read = std::holds_alternative<Read>(event.what) ||
                        std::holds_alternative<Reads>(event.what) ||
                        std::holds_alternative<Unmade>(event.what);
   return is_read && event.stamp > until;
 }
 
-/// With the tags' IDs and places, which may be others' by then.
-void Telling::keep(Event& event, std::vector<Event>& kept) {
+/// Resolves the tags' IDs now, because their slots may belong to other tags by then.
+void ReadDelivery::keep(Event& event, std::vector<Event>& kept) {
   const auto keep_all = [&](const FieldAntenna& antenna, const TagPopulation& tags,
                             std::span<const TagReply> replies) {
     for (const TagReply& reply : replies) {
@@ -166,9 +166,9 @@ void Telling::keep(Event& event, std::vector<Event>& kept) {
   }
 }
 
-void Telling::tell(Time until) {
+void ReadDelivery::tell(Time until) {
   const auto earlier = [](const Event& a, const Event& b) { return a.stamp < b.stamp; };
-  // Stable: what belongs to one stamp is told in the order in which it was added.
+  // Stable, so that events with equal stamps are delivered in the order in which they were added.
   if (!is_sorted_) std::stable_sort(events_.begin(), events_.end(), earlier);
   is_sorted_ = true;
   std::vector<Event> due;
@@ -180,7 +180,7 @@ void Telling::tell(Time until) {
       due.push_back(std::move(event));
     }
   }
-  // Taken out before they are told: a listener that throws must not be told twice.
+  // Removed before delivery, so that nothing is delivered twice if a listener throws.
   events_ = std::move(kept);
   for (Event& event : due) {
     std::visit([&](const auto& what) { tell(event.stamp, what); }, event.what);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The places that are held against the reads they came from.
+/// Iteration over the positions that are checked against their own reads.
 #pragma once
 
 #include "tagfield/localization/method.h"
 
 namespace tagfield {
 
-/// Calls it for each tag with a place, located or ambiguous, that was found and not given, with its
-/// samples.
+/// Calls `call(samples, estimate)` for each tag, located or ambiguous, whose position was estimated
+/// rather than given.
 template <typename Call>
-void for_each_place(const LocalizationProblem& problem, LocalizationResult& result,
-                    const Call& call) {
+void for_each_position(const LocalizationProblem& problem, LocalizationResult& result,
+                       const Call& call) {
   for (TagEstimate& estimate : result.estimates) {
     const auto samples = problem.samples.find(estimate.tag);
     if (estimate.candidates.empty() || samples == problem.samples.end()) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/localization/holograms/stretches.h"
+#include "tagfield/localization/holograms/segments.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "made_reads.h"
 #include "tagfield/localization/holograms/likelihood_spread.h"
-#include "tagfield/localization/holograms/stretch_sums.h"
+#include "tagfield/localization/holograms/segment_sums.h"
 
 namespace tagfield {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using namespace made;
 
 TEST(IndependentSamples, AreOneAtOnePlaceAndAllAtWholeWavelengths) {
-  // sinc is 1 at 0 and 0 at all other whole numbers.
+  // sinc is 1 at 0 and 0 at all other integers.
   EXPECT_NEAR(independent_samples(std::vector<double>(20, 1.5), 0.3), 1.0, 1e-12);
   std::vector<double> apart;
   for (int i = 0; i < 20; ++i) apart.push_back(0.3 * i);
@@ -26,7 +26,7 @@ TEST(IndependentSamples, AreOneAtOnePlaceAndAllAtWholeWavelengths) {
 }
 
 TEST(IndependentSamples, AreAsManyAsWavelengthsOnALongWay) {
-  // ∫ sinc² = 1: of a way of n wavelengths, however densely it is read.
+  // ∫ sinc² = 1: on a path of n wavelengths, however densely it is sampled.
   std::vector<double> along;
   for (int i = 0; i < 1000; ++i) along.push_back(0.1 * 0.3 * i);
   EXPECT_NEAR(independent_samples(along, 0.3), 100.0, 1.0);
@@ -52,7 +52,7 @@ RC_GTEST_PROP(IndependentSamples, AreThoseOfAllPairsInEachSetOfInstructions, ())
   }
 }
 
-/// Two channels in turns of a second, one antenna.
+/// One antenna with two channels that alternate every second.
 TagPhases two_channels(const Path& path, const Eigen::Vector3d& p_WT, Rng& rng) {
   LocalizationProblem problem;
   std::vector<PhaseSample> samples;
@@ -68,20 +68,20 @@ TagPhases two_channels(const Path& path, const Eigen::Vector3d& p_WT, Rng& rng) 
   return wrapped_phases(problem, {{"a", samples}}, {"a"});
 }
 
-/// By the definition, read by read, for one length.
+/// Likelihood by the definition, read by read, for one length.
 double by_hand(const TagPhases& phases, const Eigen::Vector3d& p, double length,
                double wavelength) {
-  std::map<int, std::map<std::size_t, std::vector<Eigen::Index>>> stretches;
+  std::map<int, std::map<std::size_t, std::vector<Eigen::Index>>> segments;
   for (std::size_t s = 0; s < phases.spans.size(); ++s) {
     for (Eigen::Index i = 0; i < phases.spans[s].count; ++i) {
       const Eigen::Index read = phases.spans[s].begin + i;
-      // The path is straight along x, so that is how far the antenna has come.
-      stretches[static_cast<int>((phases.x[read] - phases.x.minCoeff()) / length)][s].push_back(
+      // The path is straight along x, so this is the distance travelled by the antenna.
+      segments[static_cast<int>((phases.x[read] - phases.x.minCoeff()) / length)][s].push_back(
           read);
     }
   }
   double sum = 0.0;
-  for (const auto& [number, channels] : stretches) {
+  for (const auto& [number, channels] : segments) {
     double power = 0.0;
     double reads = 0.0;
     double of_channels = 0.0;
@@ -107,20 +107,20 @@ double by_hand(const TagPhases& phases, const Eigen::Vector3d& p, double length,
   return sum;
 }
 
-TEST(StretchLikelihood, IsThatOfTheDefinition) {
+TEST(SegmentLikelihood, IsThatOfTheDefinition) {
   Rng rng(3);
   const Eigen::Vector3d p_WT(3.1, 1.7, 0.9);
   const TagPhases phases = two_channels(straight(6.0, 0.06), p_WT, rng);
   const Eigen::Vector2d middle = middle_of(phases);
   const double lambda = 0.346;
-  const StretchedReads reads = stretched_reads(phases, lambda, p_WT.z(), middle);
+  const SegmentedReads reads = segmented_reads(phases, lambda, p_WT.z(), middle);
   const double end = phases.x.maxCoeff() - phases.x.minCoeff();
-  for (int k = 0; k < kStretchLengths; ++k) {
+  for (int k = 0; k < kSegmentLengths; ++k) {
     for (const Eigen::Vector2d& apart : {Eigen::Vector2d(0, 0), {0.1, -0.2}, {2.0, 1.0}}) {
       Tile x = Tile::Constant(static_cast<float>(p_WT.x() + apart.x() - middle.x()));
       Tile y = Tile::Constant(static_cast<float>(p_WT.y() + apart.y() - middle.y()));
-      const Tile told = stretch_likelihood(reads, {k, k}, x, y, Tile::Zero());
-      const double length = std::min(kShortestStretch * lambda * (1 << k), 2.0 * end);
+      const Tile told = segment_likelihood(reads, {k, k}, x, y, Tile::Zero());
+      const double length = std::min(kShortestSegment * lambda * (1 << k), 2.0 * end);
       const Eigen::Vector3d p = p_WT + Eigen::Vector3d(apart.x(), apart.y(), 0.0);
       const double expected = by_hand(phases, p, length, lambda);
       EXPECT_NEAR(static_cast<double>(told[0]), expected, 0.01 * expected + 0.05) << k;
@@ -128,26 +128,26 @@ TEST(StretchLikelihood, IsThatOfTheDefinition) {
   }
 }
 
-TEST(StretchLikelihood, IsTheSameBitsInEachSetOfInstructions) {
+TEST(SegmentLikelihood, IsTheSameBitsInEachSetOfInstructions) {
   Rng rng(4);
   const Eigen::Vector3d p_WT(3.1, 1.7, 0.9);
   const TagPhases phases = two_channels(straight(6.0, 0.06), p_WT, rng);
-  const StretchedReads reads = stretched_reads(phases, 0.346, p_WT.z(), p_WT.head<2>());
-  std::vector<const CoherentStretch*> some;
-  for (const auto& of_length : reads.stretches) {
+  const SegmentedReads reads = segmented_reads(phases, 0.346, p_WT.z(), p_WT.head<2>());
+  std::vector<const CoherentSegment*> some;
+  for (const auto& of_length : reads.segments) {
     for (std::size_t i = 0; i < of_length.size(); i += 2) some.push_back(&of_length[i]);
   }
   ASSERT_FALSE(some.empty());
   Tile x;
   for (float& place : x) place = static_cast<float>(uniform(rng, -1.0, 1.0));
   const Tile z = 0.2f * x;
-  const Tile all = stretch_sums(reads, some, x, x, z, InstructionSet::kBaseline);
+  const Tile all = segment_sums(reads, some, x, x, z, InstructionSet::kBaseline);
   for (const InstructionSet set : instruction_sets()) {
-    EXPECT_TRUE((stretch_sums(reads, some, x, x, z, set) == all).all());
+    EXPECT_TRUE((segment_sums(reads, some, x, x, z, set) == all).all());
   }
 }
 
-TEST(StretchLikelihood, AtTheTagIsWhatNoiseAloneLeaves) {
+TEST(SegmentLikelihood, AtTheTagIsWhatNoiseAloneLeaves) {
   constexpr double kNoise = 0.3;  // As in two_channels().
   const Eigen::Vector3d p_WT(3.1, 1.7, 0.9);
   double there = 0.0;
@@ -156,10 +156,10 @@ TEST(StretchLikelihood, AtTheTagIsWhatNoiseAloneLeaves) {
     Rng rng(seed);
     const TagPhases phases = two_channels(straight(6.0, 0.06), p_WT, rng);
     const Eigen::Vector2d middle = middle_of(phases);
-    const StretchedReads reads = stretched_reads(phases, 0.346, p_WT.z(), middle);
+    const SegmentedReads reads = segmented_reads(phases, 0.346, p_WT.z(), middle);
     const Tile x = Tile::Constant(static_cast<float>(p_WT.x() - middle.x()));
     const Tile y = Tile::Constant(static_cast<float>(p_WT.y() - middle.y()));
-    there += static_cast<double>(stretch_likelihood(reads, kForPlaces, x, y, Tile::Zero())[0]);
+    there += static_cast<double>(segment_likelihood(reads, kForPlaces, x, y, Tile::Zero())[0]);
     std::vector<PieceSums> counts(reads.reads.apertures.size());
     for (std::size_t i = 0; i < counts.size(); ++i) {
       counts[i].reads = Tile::Constant(static_cast<float>(reads.reads.apertures[i].count));
@@ -169,22 +169,22 @@ TEST(StretchLikelihood, AtTheTagIsWhatNoiseAloneLeaves) {
   EXPECT_NEAR(there, expected, 0.05 * expected);
 }
 
-TEST(StretchLikelihood, OfTheWayIsThatOfItsParts) {
+TEST(SegmentLikelihood, OfTheWayIsThatOfItsParts) {
   Rng rng(4);
   const Eigen::Vector3d p_WT(3.1, 1.7, 0.4);
   const TagPhases phases = two_channels(straight(6.0, 0.06), p_WT, rng);
-  const StretchedReads reads = stretched_reads(phases, 0.346, 0.4, {0.0, 0.0});
+  const SegmentedReads reads = segmented_reads(phases, 0.346, 0.4, {0.0, 0.0});
   const Tile x = Tile::Constant(3.0f);
   const Tile y = Tile::Constant(1.6f);
-  const StretchChoice whole{1, 3};
+  const SegmentChoice whole{1, 3};
   float parts = 0.0f;
-  for (int part = 0; part < kWayParts; ++part) {
-    parts += stretch_likelihood(reads, {1, 3, part}, x, y, Tile::Zero())[0];
+  for (int part = 0; part < kPathParts; ++part) {
+    parts += segment_likelihood(reads, {1, 3, part}, x, y, Tile::Zero())[0];
   }
-  EXPECT_NEAR(parts, stretch_likelihood(reads, whole, x, y, Tile::Zero())[0], 1e-3f * parts);
+  EXPECT_NEAR(parts, segment_likelihood(reads, whole, x, y, Tile::Zero())[0], 1e-3f * parts);
 }
 
-/// ln of a sum of two normal densities.
+/// ln of the sum of two normal densities.
 LogLikelihood two_hills(double apart, double sigma) {
   return [=](const Tile& x, const Tile& y, const Tile& z) -> Tile {
     const auto of = static_cast<float>(0.5 / (sigma * sigma));
@@ -230,11 +230,11 @@ TEST(LikelihoodSpread, WidensByTheRootOfWhatItIsTemperedBy) {
   EXPECT_NEAR(peak / 4.0, spread.log_peak, 0.02);
 }
 
-TEST(StretchLikelihood, OfSumsMadeElsewhereIsTheSameAndFallsWithTheReadsThatCount) {
+TEST(SegmentLikelihood, OfSumsMadeElsewhereIsTheSameAndFallsWithTheReadsThatCount) {
   Rng rng(5);
   const Eigen::Vector3d p_WT(3.0, 2.0, 1.0);
   const TagPhases phases = two_channels(straight(6.0, 0.06), p_WT, rng);
-  const StretchedReads reads = stretched_reads(phases, 0.346, 1.0, p_WT.head<2>());
+  const SegmentedReads reads = segmented_reads(phases, 0.346, 1.0, p_WT.head<2>());
   const Tile zero = Tile::Zero();
   std::vector<PieceSums> sums;
   for (const Aperture& piece : reads.reads.apertures) {
@@ -243,17 +243,17 @@ TEST(StretchLikelihood, OfSumsMadeElsewhereIsTheSameAndFallsWithTheReadsThatCoun
                               zero, zero, zero),
                     Tile::Constant(static_cast<float>(count))});
   }
-  const float all = stretch_likelihood(reads, kForPlaces, sums)[0];
-  EXPECT_NEAR(all, stretch_likelihood(reads, kForPlaces, zero, zero, zero)[0], 1e-4f * all);
-  // Half of the reads, which add up as well, tell half as much.
+  const float all = segment_likelihood(reads, kForPlaces, sums)[0];
+  EXPECT_NEAR(all, segment_likelihood(reads, kForPlaces, zero, zero, zero)[0], 1e-4f * all);
+  // Half of the reads, adding up as well, carry half the information.
   for (PieceSums& of_piece : sums) {
     of_piece.reads *= 0.5f;
     of_piece.waves.in_phase *= 0.5f;
     of_piece.waves.quadrature *= 0.5f;
   }
-  EXPECT_NEAR(stretch_likelihood(reads, kForPlaces, sums)[0], 0.5f * all, 1e-4f * all);
+  EXPECT_NEAR(segment_likelihood(reads, kForPlaces, sums)[0], 0.5f * all, 1e-4f * all);
   for (PieceSums& of_piece : sums) of_piece = {};
-  EXPECT_EQ(stretch_likelihood(reads, kForPlaces, sums)[0], 0.0f);
+  EXPECT_EQ(segment_likelihood(reads, kForPlaces, sums)[0], 0.0f);
 }
 
 }  // namespace
