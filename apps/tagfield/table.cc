@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <set>
 
 #include "tagfield/report/text.h"
 
@@ -73,32 +72,57 @@ std::string rows_of_one_seed(const Summary& summary) {
   return text;
 }
 
+using Outcomes = std::vector<const TagOutcome*>;
+
+std::size_t count_of(const Outcomes& outcomes, Verdict verdict) {
+  return static_cast<std::size_t>(std::count_if(
+      outcomes.begin(), outcomes.end(),
+      [&](const TagOutcome* outcome) { return outcome->estimate.verdict == verdict; }));
+}
+
+/// Why a tag, by its outcomes in all seeds, has no errors.
+std::string why_no_errors(const Outcomes& outcomes) {
+  if (outcomes.front()->reference) return "a reference tag";
+  const std::size_t located = count_of(outcomes, Verdict::kLocated);
+  if (located > 0) {
+    const bool moved = std::any_of(outcomes.begin(), outcomes.end(),
+                                   [](const TagOutcome* outcome) { return outcome->moved; });
+    return fmt::format("located in {} of {} seeds, but {}", located, outcomes.size(),
+                       moved ? "it moved, so there is no error" : "its true position is unknown");
+  }
+  const std::size_t ambiguous = count_of(outcomes, Verdict::kAmbiguous);
+  if (ambiguous == 0) return "not located in any seed";
+  return fmt::format("not located in any seed, ambiguous in {} of {}", ambiguous, outcomes.size());
+}
+
+std::string row_of(const std::string& tag, const Outcomes& outcomes, std::size_t width) {
+  std::vector<double> errors;
+  for (const TagOutcome* outcome : outcomes) {
+    if (const auto error = error_of(*outcome)) errors.push_back(*error);
+  }
+  const auto of_tag = statistics(errors);
+  if (!of_tag) return fmt::format("{:<{}}  {}\n", tag, width, why_no_errors(outcomes));
+  return fmt::format("{:<{}}  {:7} {:10.1f} {:12.1f} {:9.1f} {:9.1f}\n", tag, width, of_tag->count,
+                     millimetres(of_tag->mean), millimetres(of_tag->median),
+                     millimetres(of_tag->p95), millimetres(of_tag->max));
+}
+
 std::string rows_of_many_seeds(const Summary& summary) {
   std::vector<std::string> order;
-  std::map<std::string, std::vector<double>> errors;
-  std::set<std::string> references;
-  for (const TagOutcome& tag : summary.tags) {
-    const auto [entry, is_new] = errors.try_emplace(tag.estimate.tag);
-    if (is_new) order.push_back(tag.estimate.tag);
-    if (tag.reference) references.insert(tag.estimate.tag);
-    if (const auto error = error_of(tag)) entry->second.push_back(*error);
+  std::map<std::string, Outcomes> of_tags;
+  for (const TagOutcome& outcome : summary.tags) {
+    const auto [entry, is_new] = of_tags.try_emplace(outcome.estimate.tag);
+    if (is_new) order.push_back(outcome.estimate.tag);
+    entry->second.push_back(&outcome);
   }
   const std::size_t width = name_width(summary);
   std::string text = fmt::format("{:<{}}  {:>7} {:>10} {:>12} {:>9} {:>9}\n", "tag", width, "seeds",
                                  "mean [mm]", "median [mm]", "p95 [mm]", "max [mm]");
   for (std::size_t i = 0; i < std::min(order.size(), kMostRows); ++i) {
-    if (references.count(order[i]) > 0) {
-      text += fmt::format("{:<{}}  a reference tag\n", order[i], width);
-      continue;
-    }
-    const auto of_tag = statistics(errors[order[i]]);
-    if (!of_tag) {
-      text += fmt::format("{:<{}}  not located in any seed\n", order[i], width);
-      continue;
-    }
-    text += fmt::format("{:<{}}  {:7} {:10.1f} {:12.1f} {:9.1f} {:9.1f}\n", order[i], width,
-                        of_tag->count, millimetres(of_tag->mean), millimetres(of_tag->median),
-                        millimetres(of_tag->p95), millimetres(of_tag->max));
+    text += row_of(order[i], of_tags[order[i]], width);
+  }
+  if (order.size() > kMostRows) {
+    text += fmt::format("… and {} more (summary.json has all)\n", order.size() - kMostRows);
   }
   return text;
 }

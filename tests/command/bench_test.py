@@ -366,7 +366,8 @@ def bad_suites_are_refused(context):
     suite = suite_of(context, "  - {name: a}\n", more="seeds: 3\n")
     check_refused(context, suite, f"{suite}:3: ", "has 'seeds' twice")
     good = suite_of(context, SMALL)
-    check_refused(context, good, "--methods: ", "the suite has no method", "did you mean 'hyperbola'?", "--methods",
+    check_refused(context, good, "--methods: ",
+                  "the suite has no method 'hyperbol' (did you mean 'hyperbola'?)", "--methods",
                   "hyperbol")
     check_refused(context, good, "--conditions: ", "did you mean 'lossy'?", "--conditions", "losy")
     check_refused(context, "no_suite.yaml", "no_suite.yaml", "")

@@ -229,6 +229,32 @@ def a_run_that_only_records_writes_the_same_tables(context):
 
 
 @case
+def tags_without_errors_in_several_seeds_say_why(context):
+    scenario = context.write("s.yaml", """
+model: paper
+robots:
+  - {name: robot, start: [0, 0, 0], speed_m_s: 0.3, waypoints: [[3, 0], [3, 3]]}
+  - {name: straight, start: [20, 0, 0], speed_m_s: 0.3, waypoints: [[26, 0]]}
+antennas:
+  - {name: a, on: robot, pose: [0, 0, 1], frequency_hz: 865.7e6, phase_noise_rad: 0.1, range_m: 4}
+  - {name: b, on: straight, pose: [0, 0, 1], frequency_hz: 865.7e6, phase_noise_rad: 0.1, range_m: 4}
+tags:
+  - {id: known, position: [2, 1.5, 1.2]}
+  - {id: mover, trajectory: [[0, 1, 1.5, 1], [20, 1.001, 1.5, 1]]}
+  - {id: either_side, position: [23, 1.5, 1.2]}
+  - {id: far, position: [90, 0, 1]}
+localization: {method: hyperbola, reference_tags: [known]}
+""")
+    rows = context.run_well("run", scenario, "--seeds", "2", "--no-page").out.splitlines()
+    said = {row.split()[0]: " ".join(row.split()[1:]) for row in rows if row}
+    check_equal(said["known"], "a reference tag", "reference tag")
+    check_equal(said["mover"], "located in 2 of 2 seeds, but it moved, so there is no error", "mover")
+    check_equal(said["either_side"], "not located in any seed, ambiguous in 2 of 2", "either side")
+    check_equal(said["far"], "not located in any seed", "far")
+    check_in("2 located, 2 ambiguous, 2 not located (2 reference tags given)", "\n".join(rows), "counts")
+
+
+@case
 def an_interrupted_recording_is_whole_and_says_that_it_ends_early(context):
     out = context.folder / "out"
     session = OnTerminal(context, "run", context.shipped("paper_warehouse"), "--set",
