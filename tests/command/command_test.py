@@ -240,7 +240,7 @@ antennas:
   - {name: b, on: straight, pose: [0, 0, 1], frequency_hz: 865.7e6, phase_noise_rad: 0.1, range_m: 4}
 tags:
   - {id: known, position: [2, 1.5, 1.2]}
-  - {id: mover, trajectory: [[0, 1, 1.5, 1], [20, 1.001, 1.5, 1]]}
+  - {id: mover, trajectory: [[0, 1, 1.5, 1], [20, 1.03, 1.5, 1]]}
   - {id: either_side, position: [23, 1.5, 1.2]}
   - {id: far, position: [90, 0, 1]}
 localization: {method: hyperbola, reference_tags: [known]}
