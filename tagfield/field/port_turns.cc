@@ -37,8 +37,6 @@ void append(const AntennaParameters& antenna, PortCycle& cycle) {
   const Duration begin = cycle.turns.empty() ? Duration::zero() : cycle.turns.back().end;
   const double dwell_s = inventory_of(antenna)->port_dwell_s;
   cycle.turns.push_back({antenna.name, begin, begin + duration_from_seconds(dwell_s)});
-  // Holds the longest sequence until settle() converts it to the restart interval.
-  cycle.restart = std::max(cycle.restart, hop_sequence(*physical(antenna)));
 }
 
 Duration period(const PortCycle& cycle) { return cycle.turns.back().end; }
@@ -75,17 +73,16 @@ std::vector<Duration> spread_starts(const PortCycle& cycle) {
   return starts;
 }
 
-/// Converts the sequence of channels to the restart interval.
-void settle(PortCycle& cycle) {
-  const Duration sequence = cycle.restart;
-  cycle.restart = Duration::zero();
+/// Lets the cycle restart with `sequence`, the longest sequence of channels of its antennas, or
+/// with as many of these as it takes.
+void restart_with(Duration sequence, PortCycle& cycle) {
   if (cycle.turns.size() < 2 || sequence <= shortest_turn(cycle)) return;
   cycle.restart = sequence * rounded_up(period(cycle), sequence);
   cycle.starts = spread_starts(cycle);
 }
 
-/// The position of a time in a cycle.
-struct Place {
+/// A time within a cycle.
+struct CycleTime {
   Duration within;      ///< Time since the start of the cycle.
   Duration to_restart;  ///< Duration::max() if the cycle never restarts.
 };
@@ -95,7 +92,7 @@ Duration rest_of(Duration time, Duration of) {
   return rest < Duration::zero() ? rest + of : rest;
 }
 
-Place place_in(const PortCycle& cycle, Time time) {
+CycleTime cycle_time(const PortCycle& cycle, Time time) {
   const Duration since_epoch = time.time_since_epoch();
   if (cycle.restart == Duration::zero()) {
     return {rest_of(since_epoch, period(cycle)), Duration::max()};
@@ -108,31 +105,40 @@ Place place_in(const PortCycle& cycle, Time time) {
           cycle.restart - since_restart};
 }
 
-const PortTurn& turn_at(const PortCycle& cycle, const Place& place) {
-  return *std::upper_bound(cycle.turns.begin(), cycle.turns.end(), place.within,
+const PortTurn& turn_at(const PortCycle& cycle, const CycleTime& at) {
+  return *std::upper_bound(cycle.turns.begin(), cycle.turns.end(), at.within,
                            [](Duration t, const PortTurn& turn) { return t < turn.end; });
 }
 
 }  // namespace
 
 std::vector<PortCycle> port_cycles(const std::vector<AntennaParameters>& antennas) {
-  std::map<std::string, PortCycle> of_reader;
-  PortCycle by_time;
+  struct Draft {
+    PortCycle cycle;
+    Duration sequence = Duration::zero();
+  };
+  std::map<std::string, Draft> of_reader;
+  Draft by_time;
   for (const AntennaParameters& antenna : antennas) {
     if (inventory_of(antenna) == nullptr) continue;
-    const bool in_common = physical(antenna)->sharing == AirSharing::kTime;
-    append(antenna, in_common ? by_time : of_reader[antenna.reader]);
+    const RadioModel& model = *physical(antenna);
+    Draft& draft = model.sharing == AirSharing::kTime ? by_time : of_reader[antenna.reader];
+    append(antenna, draft.cycle);
+    draft.sequence = std::max(draft.sequence, hop_sequence(model));
   }
   std::vector<PortCycle> cycles;
   cycles.reserve(of_reader.size() + 1);
-  for (auto& [reader, cycle] : of_reader) cycles.push_back(std::move(cycle));
-  if (!by_time.turns.empty()) cycles.push_back(std::move(by_time));
-  for (PortCycle& cycle : cycles) settle(cycle);
+  const auto add = [&](Draft& draft) {
+    restart_with(draft.sequence, draft.cycle);
+    cycles.push_back(std::move(draft.cycle));
+  };
+  for (auto& [reader, draft] : of_reader) add(draft);
+  if (!by_time.cycle.turns.empty()) add(by_time);
   return cycles;
 }
 
 const std::string& antenna_on_turn(const PortCycle& cycle, Time time) {
-  return turn_at(cycle, place_in(cycle, time)).antenna;
+  return turn_at(cycle, cycle_time(cycle, time)).antenna;
 }
 
 std::optional<Time> next_turn(const PortCycle& cycle, const std::string& antenna, Time time) {
@@ -140,21 +146,21 @@ std::optional<Time> next_turn(const PortCycle& cycle, const std::string& antenna
       std::find_if(cycle.turns.begin(), cycle.turns.end(),
                    [&](const PortTurn& candidate) { return candidate.antenna == antenna; });
   if (turn == cycle.turns.end()) return std::nullopt;
-  const Place place = place_in(cycle, time);
-  if (&turn_at(cycle, place) == &*turn) return time;
-  const Duration wait = rest_of(turn->begin - place.within, period(cycle));
-  if (wait < place.to_restart) return time + wait;
+  const CycleTime at = cycle_time(cycle, time);
+  if (&turn_at(cycle, at) == &*turn) return time;
+  const Duration wait = rest_of(turn->begin - at.within, period(cycle));
+  if (wait < at.to_restart) return time + wait;
   // After a restart, each antenna has a turn before the next restart.
-  return next_turn(cycle, antenna, time + place.to_restart);
+  return next_turn(cycle, antenna, time + at.to_restart);
 }
 
 std::optional<Time> next_change(const std::vector<PortCycle>& cycles, Time time) {
   std::optional<Time> first;
   for (const PortCycle& cycle : cycles) {
     if (cycle.turns.size() < 2) continue;
-    const Place place = place_in(cycle, time);
-    const Duration left = turn_at(cycle, place).end - place.within;
-    const Time change = time + std::min(left, place.to_restart);
+    const CycleTime at = cycle_time(cycle, time);
+    const Duration left = turn_at(cycle, at).end - at.within;
+    const Time change = time + std::min(left, at.to_restart);
     if (!first || change < *first) first = change;
   }
   return first;

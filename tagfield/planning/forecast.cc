@@ -76,9 +76,10 @@ std::vector<Turn> turns_of(const ForecastRequest& request) {
   std::vector<Turn> turns;
   const Time end = time_from_seconds(request.duration_s);
   for (const PortCycle& cycle : port_cycles(antennas)) {
+    const std::vector<PortCycle> alone = {cycle};
     Time begin{};
     while (begin < end) {
-      const Time change = std::min(next_change({cycle}, begin).value_or(end), end);
+      const Time change = std::min(next_change(alone, begin).value_or(end), end);
       add_turn(request, port_named(request, antenna_on_turn(cycle, begin)), to_seconds(begin),
                to_seconds(change), turns);
       begin = change;
