@@ -89,7 +89,7 @@ def outliers(rows, share, random):
                       else phase)
 
 
-def half_turns(rows, random):
+def pi_ambiguity(rows, random):
     return with_phase(rows, lambda phase: phase + math.pi * random.randrange(2))
 
 

@@ -41,7 +41,7 @@ def lost_to_outliers(share):
 
 
 def turned(rows, rng):
-    return made.half_turns(rows, rng), rows
+    return made.pi_ambiguity(rows, rng), rows
 
 
 def stepped(rows, _rng):
@@ -55,7 +55,7 @@ CONDITIONS = {
     "interleaved": (made.interleaved, plain),
     "all channels at each stop": (made.all_at_each, plain),
     "hopping": (made.hopping, plain),
-    "half turns": (made.one_channel, turned),
+    "pi ambiguity": (made.one_channel, turned),
     "outliers 2 %": (made.one_channel, lost_to_outliers(0.02)),
     "outliers 5 %": (made.one_channel, lost_to_outliers(0.05)),
     "4096 steps": (made.one_channel, stepped),

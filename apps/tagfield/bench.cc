@@ -234,7 +234,7 @@ void add_bench_command(CLI::App& app, Action& chosen) {
       "    - {name: true pose}\n"
       "    - {name: noisy, set: {antennas.mobile.phase_noise_rad: 0.5}}\n"
       "    - {name: lossy, lose: {share: 0.3, burst_s: 1, every_s: 10}}\n"
-      "    - {name: late, fault: {late_stamps_s: 0.2}}\n"
+      "    - {name: late, fault: {timestamp_delay_s: 0.2}}\n"
       "    - {name: rail, recording: {reads: d1.tar.zst, format: adarf, side: +y, truth: "
       "t.csv}}\n\n"
       "The folder then holds bench.html, bench.json, bench.csv with a row for each condition and\n"

@@ -67,7 +67,7 @@ nlohmann::ordered_json json_of(const CalibratedValue& value) {
 
 std::string to_json(const Calibration& calibration) {
   nlohmann::ordered_json json = {{"name", calibration.name},
-                                 {"half_turns", calibration.half_turns},
+                                 {"pi_ambiguity", calibration.pi_ambiguity},
                                  {"antennas", nlohmann::ordered_json::object()}};
   for (const auto& [name, antenna] : calibration.antennas) {
     nlohmann::ordered_json& one = json["antennas"][name];

@@ -188,7 +188,7 @@ std::string navigation_lines(const Summary& summary) {
     text += fmt::format("  … and {} more (summary.json has all)\n", unreached.size() - kMostRows);
   }
   return text + finding_line("unknown starts", navigation.unknown_starts) +
-         finding_line("carried away", navigation.carried) + finding_line("lost", navigation.lost);
+         finding_line("kidnapped", navigation.kidnapped) + finding_line("lost", navigation.lost);
 }
 
 /// The method used, if it was not requested by name.

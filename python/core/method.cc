@@ -131,7 +131,7 @@ void bind_methods(py::module_& module) {
           "reference_tags", [](const ProblemView& view) { return view.get().reference_tags; },
           "Positions (3,) [m, world] of tags at known positions, by ID.")
       .def_property_readonly(
-          "half_turns", [](const ProblemView& view) { return view.get().half_turns; },
+          "pi_ambiguity", [](const ProblemView& view) { return view.get().pi_ambiguity; },
           "Whether phases have the π ambiguity: then phases and carriers of samples are doubled.")
       .def_property_readonly(
           "has_phases", [](const ProblemView& view) { return view.get().has_phases; },

@@ -135,8 +135,8 @@ KnownBeforehand known_of(const Asked& asked, const LoadedPtr& loaded,
   }
   known.limits.max_expected_error_m =
       asked.number("max_expected_error_m", 0.0).value_or(known.limits.max_expected_error_m);
-  known.half_turns =
-      asked.get<bool>("half_turns").has_value() ? asked.get<bool>("half_turns") : known.half_turns;
+  known.pi_ambiguity = asked.get<bool>("pi_ambiguity").has_value() ? asked.get<bool>("pi_ambiguity")
+                                                                   : known.pi_ambiguity;
   return known;
 }
 
@@ -350,7 +350,7 @@ py::dict to_python(const Calibration& calibration, const std::vector<std::string
   }
   py::dict all;
   all["antennas"] = antennas;
-  all["half_turns"] = calibration.half_turns;
+  all["pi_ambiguity"] = calibration.pi_ambiguity;
   all["yaml"] = to_yaml(calibration);
   all["warnings"] = warnings;
   return all;

@@ -102,7 +102,7 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
     {antenna: rad}; pose_sigma_m, pose_yaw_sigma_deg, pose_time_constant_s: the error of the poses;
     world_sigma_m: how far surfaces of the scenario's world may be off, for multipath (0.01 if not given;
     0 suits reads that were simulated in that very world); max_expected_error_m: with a larger
-    one a tag is not located; half_turns: whether phases have the π ambiguity.
+    one a tag is not located; pi_ambiguity: whether phases have the π ambiguity.
     """
     _refuse_unknown("localize", known, _KNOWN)
     own = method if isinstance(method, _core.Method) else None
@@ -141,7 +141,7 @@ class Calibration:
     """
 
     antennas: dict[str, dict[str, Any]]
-    half_turns: bool
+    pi_ambiguity: bool
     yaml: str
     warnings: list[str]
 
@@ -167,7 +167,7 @@ def calibrate(reads: Any, poses: Any, tags: Mapping[str, Any], *, place_sigma_m:
 
 _HEIGHTS = {"tag_height_m", "tag_heights_m", "height", "offset_rad", "offsets_rad"}
 _KNOWN = _HEIGHTS | {"side", "box_m", "reference_tags", "pose_sigma_m", "pose_yaw_sigma_deg",
-                     "pose_time_constant_s", "world_sigma_m", "max_expected_error_m", "half_turns"}
+                     "pose_time_constant_s", "world_sigma_m", "max_expected_error_m", "pi_ambiguity"}
 _TRACK = _HEIGHTS - {"height"} | {"method", "lane", "both_ways", "line", "speed_m_s", "acceleration_noise"}
 
 

@@ -15,7 +15,7 @@
 #include "tagfield/fit/random_phases.h"
 #include "tagfield/fit/robust_noise.h"
 #include "tagfield/fit/symmetric.h"
-#include "tagfield/localization/half_turns.h"
+#include "tagfield/localization/pi_ambiguity.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/localization/stops.h"
 
@@ -275,7 +275,7 @@ double scatter_of(const std::vector<TagOffset>& by_tag) {
 /// nullopt if random phases would fit equally well.
 std::optional<AntennaCalibration> calibration_of(const AntennaData& data,
                                                  const CalibrationOptions& options,
-                                                 bool half_turns) {
+                                                 bool pi_ambiguity) {
   const double whole = duration_of(data) + 1.0;
   Fit fit = fine_fit(data, options);
   if (!(evidence_of(data, options, intervals_of(data, whole, false), fit) >= kLeastEvidence)) {
@@ -287,7 +287,7 @@ std::optional<AntennaCalibration> calibration_of(const AntennaData& data,
   const bool agree = result.tag_scatter_rad < kAgree;
   const std::vector<ReadInterval> shared = intervals_of(data, whole, true);
   if (agree) fit = fitted({data, shared, options, fit.sign, fit.noise_rad}, fit);
-  const double scale = half_turns ? 0.5 : 1.0;
+  const double scale = pi_ambiguity ? 0.5 : 1.0;
   result.phase_sign = fit.sign > 0.0 ? 1 : -1;
   result.noise_rad = scale * fit.noise_rad;
   result.tag_scatter_rad *= scale;
@@ -354,8 +354,8 @@ Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<Anten
   const auto tracks = tracks_of(poses, diagnostics);
   SamplesByTag samples = join_reads_with_tracks(reads, tracks, options.max_pose_gap_s, diagnostics);
   Calibration calibration;
-  calibration.half_turns = has_half_turns(samples);
-  if (calibration.half_turns) {
+  calibration.pi_ambiguity = has_pi_ambiguity(samples);
+  if (calibration.pi_ambiguity) {
     diagnostics.warn("phases jump by π: they are taken as ambiguous (φ or φ + π)");
     double_phases(samples);
   }
@@ -373,7 +373,7 @@ Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<Anten
   }
   std::vector<std::optional<AntennaCalibration>> results(usable.size());
   parallel_for(usable.size(), threads, [&](std::size_t i) {
-    results[i] = calibration_of(*usable[i], options, calibration.half_turns);
+    results[i] = calibration_of(*usable[i], options, calibration.pi_ambiguity);
   });
   for (std::size_t i = 0; i < usable.size(); ++i) {
     if (results[i]) {

@@ -51,12 +51,12 @@ void apply_calibration(const Calibration& calibration, std::vector<TagRead>& rea
       known.offsets.push_back({name, offset.frequency_hz, offset.value_rad});
     }
   }
-  if (calibration.half_turns) known.half_turns = true;
+  if (calibration.pi_ambiguity) known.pi_ambiguity = true;
 }
 
 std::string to_yaml(const Calibration& calibration) {
-  std::string text = fmt::format("name: {}\nkind: calibration\nhalf_turns: {}\nantennas:\n",
-                                 quoted(calibration.name), calibration.half_turns);
+  std::string text = fmt::format("name: {}\nkind: calibration\npi_ambiguity: {}\nantennas:\n",
+                                 quoted(calibration.name), calibration.pi_ambiguity);
   if (calibration.antennas.empty()) text.insert(text.size() - 1, " {}");
   for (const auto& [name, antenna] : calibration.antennas) {
     text += fmt::format("  {}:\n    reads: {}\n    phase_sign: {}\n    noise_rad: {:.9g}\n",

@@ -45,7 +45,7 @@ struct AntennaCalibration {
 
 struct Calibration {
   std::string name;
-  bool half_turns = false;
+  bool pi_ambiguity = false;
   std::map<std::string, AntennaCalibration> antennas;
 };
 

@@ -152,8 +152,8 @@ Calibration carried_over(const std::vector<Calibration>& experiments, Diagnostic
     throw Error("at least three experiments are needed to see whether a calibration carries over");
   }
   Calibration result;
-  result.half_turns = std::any_of(experiments.begin(), experiments.end(),
-                                  [](const Calibration& one) { return one.half_turns; });
+  result.pi_ambiguity = std::any_of(experiments.begin(), experiments.end(),
+                                    [](const Calibration& one) { return one.pi_ambiguity; });
   for (const auto& [name, first] : experiments.front().antennas) {
     OfAntenna all;
     for (const Calibration& one : experiments) {

@@ -85,7 +85,7 @@ KnownBeforehand known_beforehand(const Scenario& scenario) {
   known.reference_tags = reference_tags_of(scenario);
   known.offsets = offsets_of(scenario);
   known.pose_error = pose_error_of(scenario);
-  known.half_turns = scenario.localization.half_turns;
+  known.pi_ambiguity = scenario.localization.pi_ambiguity;
   known.area = scenario.localization.area;
   known.limits = scenario.localization.limits;
   known.trace = traced_replies(scenario);

@@ -28,9 +28,9 @@ double offset_of_port(const RadioPort& port) {
   return drawn_offset(port.seed, port.antenna_key, kPort);
 }
 
-bool has_half_turns(const RadioModel& model) {
+bool has_pi_ambiguity(const RadioModel& model) {
   // Without an inventory, the reader's usual Miller replies are assumed.
-  return model.effects.half_turns && (!model.gen2 || model.gen2->link.encoding != Encoding::kFm0);
+  return model.effects.pi_ambiguity && (!model.gen2 || model.gen2->link.encoding != Encoding::kFm0);
 }
 
 /// Without simulated noise, a reader decodes replies whose decode probability is at least one half.
@@ -62,7 +62,7 @@ TagReply report(const RadioModel& model, const RadioPort& port, const CarrierNow
   RandomStream noise(port.seed, Purpose::kMeasuring, port.antenna_key, tag.key,
                      static_cast<std::uint64_t>(stamp.time_since_epoch().count()));
   const ReceiverEffects effects{model.effects.noise, model.effects.quantization,
-                                has_half_turns(model)};
+                                has_pi_ambiguity(model)};
   Reply incoming = reply_of(link, carrier.phase_offset_rad, v_AT_W);
   incoming.interference_mw = interference_mw;
   const Measured measured = measure(model.hardware, effects, incoming, noise);

@@ -35,7 +35,7 @@ double noise_of(const BoundInput& input, const std::string& antenna) {
     throw Error("the phase noise of antenna '" + antenna + "' must be known and over 0");
   }
   // Doubled phases have twice the noise.
-  return found->second * (input.truth.half_turns ? 2.0 : 1.0);
+  return found->second * (input.truth.pi_ambiguity ? 2.0 : 1.0);
 }
 
 /// Scales wavenumbers so that each antenna's noise becomes that of the system, 1 rad.

@@ -49,7 +49,7 @@ struct Method {
   /// accepts none. Throws Error on values out of range.
   std::function<LocateFunction(const MethodSettings&)> with{};
   /// Known or requested inputs that other methods use and this one ignores, by the keys of a
-  /// scenario's `localization`: "offset", "half_turns", "pose_error" and those of EstimateLimits.
+  /// scenario's `localization`: "offset", "pi_ambiguity", "pose_error" and those of EstimateLimits.
   std::vector<std::string> ignores{};
 };
 

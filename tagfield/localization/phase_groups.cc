@@ -110,7 +110,7 @@ std::optional<double> group_ratio(const SamplesOfTag& samples, double multiple) 
 
 void refuse_groups(const LocalizationProblem& problem, LocalizationResult& result) {
   for_each_position(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
-    const double multiple = problem.half_turns ? 1.0 : 2.0;
+    const double multiple = problem.pi_ambiguity ? 1.0 : 2.0;
     if (group_ratio(samples, multiple).value_or(0.0) < kGroups) return;
     estimate = not_located(std::move(estimate),
                            "phases of one antenna on one carrier come in two groups: there are two "

@@ -7,8 +7,8 @@
 
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
-#include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/judgement.h"
+#include "tagfield/localization/pi_ambiguity.h"
 #include "tagfield/localization/stops.h"
 
 namespace tagfield {
@@ -160,10 +160,10 @@ LocalizationProblem make_problem(const EachRead& each_read, const std::vector<An
   problem.samples = std::move(joined.samples);
   problem.offset_known = take_out_offsets(known.offsets, problem.samples);
   problem.has_phases = joined.has_phases;
-  problem.half_turns =
-      problem.has_phases && known.half_turns.value_or(has_half_turns(problem.samples));
-  if (problem.half_turns) {
-    if (!known.half_turns) {
+  problem.pi_ambiguity =
+      problem.has_phases && known.pi_ambiguity.value_or(has_pi_ambiguity(problem.samples));
+  if (problem.pi_ambiguity) {
+    if (!known.pi_ambiguity) {
       diagnostics.warn("phases jump by π: they are taken as ambiguous (φ or φ + π)");
     }
     double_phases(problem.samples);

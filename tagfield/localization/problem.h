@@ -214,7 +214,7 @@ struct LocalizationProblem {
   std::optional<PoseErrorModel> pose_error;  ///< nullopt if unknown.
   std::optional<MapError> map_error;         ///< nullopt if unknown; with an origin.
   bool has_phases = true;                    ///< False if they are identical: the reads have none.
-  bool half_turns = false;                   ///< Phases and carriers were doubled (half_turns.h).
+  bool pi_ambiguity = false;                 ///< Phases and carriers were doubled (pi_ambiguity.h).
   TagArea area;                              ///< Where tags can be.
   EstimateLimits limits;
   TraceReplies trace;          ///< Traces paths through the world if that is known, otherwise null.
@@ -222,7 +222,7 @@ struct LocalizationProblem {
   OnLocating on_locating;      ///< May be null.
 
   /// Factor by which phases and carriers in `samples` were multiplied.
-  [[nodiscard]] double multiple() const { return half_turns ? 2.0 : 1.0; }
+  [[nodiscard]] double multiple() const { return pi_ambiguity ? 2.0 : 1.0; }
 };
 
 /// Prior knowledge from which a problem is made, besides reads and poses.
@@ -234,7 +234,7 @@ struct KnownBeforehand {
   std::optional<MapError> map_error;
   double max_pose_gap_s = 0.5;  ///< Reads between poses further apart than this are left out.
   /// Whether phases have a π ambiguity; if not given, it is detected from the reads.
-  std::optional<bool> half_turns;
+  std::optional<bool> pi_ambiguity;
   TagArea area;  ///< Where tags can be.
   EstimateLimits limits;
   TraceReplies trace{};  ///< Through the world if that is known. Called from several threads.

@@ -64,8 +64,8 @@ Eigen::Matrix3d increment_covariance(const PlanarPose& increment, const Odometry
   return J * Q * J.transpose();
 }
 
-Eigen::Matrix3d carried_covariance(const Eigen::Matrix3d& covariance, const PlanarPose& q_OB,
-                                   const PlanarPose& increment, const OdometryNoise& noise) {
+Eigen::Matrix3d propagated_covariance(const Eigen::Matrix3d& covariance, const PlanarPose& q_OB,
+                                      const PlanarPose& increment, const OdometryNoise& noise) {
   const auto [s, c] = sine_cosine(q_OB.yaw);
   Eigen::Matrix3d by_pose = Eigen::Matrix3d::Identity();
   by_pose(0, 2) = -s * increment.x - c * increment.y;

@@ -47,8 +47,8 @@ Eigen::Matrix3d increment_covariance(const PlanarPose& increment, const Odometry
 
 /// Covariance of x, y [m], yaw [rad] of the pose reached by `increment` from `q_OB`, to first
 /// order, given the `covariance` of q_OB. Both in the axes of O.
-Eigen::Matrix3d carried_covariance(const Eigen::Matrix3d& covariance, const PlanarPose& q_OB,
-                                   const PlanarPose& increment, const OdometryNoise& noise);
+Eigen::Matrix3d propagated_covariance(const Eigen::Matrix3d& covariance, const PlanarPose& q_OB,
+                                      const PlanarPose& increment, const OdometryNoise& noise);
 
 /// Variances of an increment's length [m²] and of its change of heading [rad²].
 Eigen::Vector2d increment_variances(const PlanarPose& increment, const OdometryNoise& noise);

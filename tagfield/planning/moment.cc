@@ -11,13 +11,13 @@ namespace {
 void plan(RobotSpec& robot, Diagnostics& diagnostics) {
   for (const PlanarPose& goal : robot.goals_W) robot.waypoints.push_back(position_of(goal));
   robot.goals_W.clear();
-  const bool is_unknown = robot.random_goals > 0 || !robot.carried.empty();
+  const bool is_unknown = robot.random_goals > 0 || !robot.kidnapped.empty();
   robot.random_goals = 0;
-  robot.carried.clear();
+  robot.kidnapped.clear();
   diagnostics.warn(robot.location,
                    fmt::format("robot '{}' navigates by laser; it is assumed to {}", robot.name,
                                robot.waypoints.empty() ? "stand at its start"
-                               : is_unknown ? "follow its waypoints, without being carried"
+                               : is_unknown ? "follow its waypoints, without being kidnapped"
                                             : "drive straight over its waypoints or goals"));
 }
 

@@ -37,7 +37,7 @@ struct RadioEffects {
   bool quantization = true;   ///< Of reported values.
   bool hopping = true;        ///< Changing carriers; else always the first one.
   bool phase_offsets = true;  ///< One per channel and per port.
-  bool half_turns = true;     ///< π ambiguity of the phase, with Miller replies.
+  bool pi_ambiguity = true;   ///< π ambiguity of the phase, with Miller replies.
   bool inventory = true;      ///< Gen2 slots, if an inventory is given.
   bool interference = true;   ///< By other readers, if enabled.
   bool coupling = true;       ///< Of tags close to each other, if enabled.
@@ -61,7 +61,7 @@ constexpr std::array<EffectSwitch, 15> kEffectSwitches = {{
     {"quantization", "steps of phase and RSSI", &RadioEffects::quantization},
     {"hopping", "channel hopping", &RadioEffects::hopping},
     {"phase_offsets", "phase offsets of channels and ports", &RadioEffects::phase_offsets},
-    {"half_turns", "π ambiguity of the phase", &RadioEffects::half_turns},
+    {"pi_ambiguity", "π ambiguity of the phase", &RadioEffects::pi_ambiguity},
     {"inventory", "Gen2 inventory", &RadioEffects::inventory},
     {"interference", "interference of readers", &RadioEffects::interference},
     {"coupling", "coupling of tags", &RadioEffects::coupling},

@@ -96,7 +96,7 @@ Measured measure(const ReaderHardware& hardware, const ReceiverEffects& effects,
                  RandomStream& noise) {
   Measured measured{reply.phase_rad, reply.power_dbm, reply.doppler_hz};
   if (effects.noise) add_noise(hardware, reply, noise, measured);
-  if (effects.half_turns && (noise() & 1U) != 0) measured.phase_rad += kPi;
+  if (effects.pi_ambiguity && (noise() & 1U) != 0) measured.phase_rad += kPi;
   if (effects.quantization) quantize(hardware, measured);
   measured.phase_rad = wrap_to_two_pi(measured.phase_rad);
   measured.rssi_dbm = std::max(measured.rssi_dbm, kLeastRssi);

@@ -51,7 +51,7 @@ double required_sinr_db(int bits);
 struct ReceiverEffects {
   bool noise = true;         ///< In phase, RSSI and Doppler.
   bool quantization = true;  ///< Of phase, RSSI and Doppler.
-  bool half_turns = true;    ///< π ambiguity: phase or phase + π, at random for each read.
+  bool pi_ambiguity = true;  ///< π ambiguity: phase or phase + π, at random for each read.
 };
 
 /// A reply at the receiver's input.

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "tagfield/base/units.h"
-#include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/holograms/wave_sums.h"
+#include "tagfield/localization/pi_ambiguity.h"
 #include "tagfield/report/figures.h"
 #include "tagfield/report/internal/color_bands.h"
 #include "tagfield/report/internal/figure_data.h"
@@ -48,14 +48,15 @@ std::size_t count_carriers(const Shown& shown) {
 /// Reads of the antenna joined with its believed poses.
 struct HoppingReads {
   std::vector<PhaseSample> samples;  ///< Of the tag.
-  bool half_turns = false;  ///< If the phases have a π ambiguity, phases and carriers are doubled.
+  bool pi_ambiguity =
+      false;  ///< If the phases have a π ambiguity, phases and carriers are doubled.
 };
 
 HoppingReads hopping_reads(const Shown& shown) {
   SamplesByTag samples = believed_samples(*shown.track, shown.track->reads);
   HoppingReads joined;
-  joined.half_turns = has_half_turns(samples);
-  if (joined.half_turns) double_phases(samples);
+  joined.pi_ambiguity = has_pi_ambiguity(samples);
+  if (joined.pi_ambiguity) double_phases(samples);
   const auto of_tag = samples.find(shown.tag);
   if (of_tag == samples.end() || of_tag->second.empty()) return joined;
   const std::vector<PhaseSample>& all = of_tag->second.begin()->second;
@@ -194,7 +195,7 @@ Figure hologram_figure(const Shown& shown, const HoppingReads& reads, const TagO
   if (outcome.estimate.verdict == Verdict::kLocated) {
     figure.caption += " The cross is the estimate.";
   }
-  if (reads.half_turns) {
+  if (reads.pi_ambiguity) {
     figure.caption += " Phases are ambiguous by π, so fringes are twice as dense.";
   }
   figure.data = "x_m,y_m,agreement\n";

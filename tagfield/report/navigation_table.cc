@@ -99,7 +99,7 @@ std::string driving_rows(const NavigationSummary& navigation) {
              "between its outline and anything else") +
          row("Collisions", grouped(navigation.collisions), "times it touched anything") +
          finding_row("Unknown starts", "found out where it was", navigation.unknown_starts) +
-         finding_row("Carried away", "found out where it was put", navigation.carried) +
+         finding_row("Kidnapped", "found out where it was put", navigation.kidnapped) +
          row("Times lost", grouped(navigation.times_lost), "times it no longer knew where it was");
 }
 

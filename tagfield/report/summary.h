@@ -193,8 +193,8 @@ struct NavigationSummary {
   std::size_t times_lost = 0;  ///< Over all seeds.
   // None if it did not happen.
   std::optional<FindingSummary> unknown_starts;
-  std::optional<FindingSummary> carried;
-  std::optional<FindingSummary> lost;  ///< Losses without being carried.
+  std::optional<FindingSummary> kidnapped;
+  std::optional<FindingSummary> lost;  ///< Losses without being kidnapped.
 };
 
 /// Which effects of the physical models were enabled.

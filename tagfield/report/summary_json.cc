@@ -72,7 +72,7 @@ constexpr auto fields(const NavigationSummary* /*of*/) {
       std::pair("goals_reached", &S::goals_reached),
       std::pair("goals_unreached", &S::goals_unreached), std::pair("closest_m", &S::closest_m),
       std::pair("collisions", &S::collisions), std::pair("times_lost", &S::times_lost),
-      std::pair("unknown_starts", &S::unknown_starts), std::pair("carried", &S::carried),
+      std::pair("unknown_starts", &S::unknown_starts), std::pair("kidnapped", &S::kidnapped),
       std::pair("lost", &S::lost));
 }
 

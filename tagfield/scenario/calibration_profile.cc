@@ -72,7 +72,7 @@ Calibration read_calibration(const std::string& path) {
   Calibration calibration;
   calibration.name = map.at("name").text();
   choice(map.at("kind"), {"calibration"});
-  calibration.half_turns = map.boolean("half_turns", false);
+  calibration.pi_ambiguity = map.boolean("pi_ambiguity", false);
   const YamlValue antennas = map.at("antennas");
   YamlMap by_name(antennas);
   for (const auto& entry : antennas.node()) {

@@ -16,7 +16,7 @@
 namespace tagfield {
 
 /// A robot is picked up and put down elsewhere, unnoticed by its odometry.
-struct Carrying {
+struct Kidnapping {
   Time when;  ///< Time since the start of the drive, which is the end of mapping.
   std::optional<PlanarPose> to_W;  ///< None: drawn from all poses it could have driven to.
   Location location;
@@ -35,11 +35,11 @@ struct RobotSpec {
   DrivingStyle style;
   std::vector<Eigen::Vector2d> waypoints;  ///< [m, world]; none for a stationary robot.
   // For robots that navigate by themselves; at most one of waypoints, goals, random goals.
-  std::vector<PlanarPose> goals_W;  ///< Poses to drive to, including the final heading.
-  int random_goals = 0;             ///< Number of goals drawn anew for each seed.
-  std::vector<Carrying> carried;    ///< In chronological order.
-  std::optional<RobotBody> body;    ///< None: invisible to waves.
-  Location location;                ///< Location in the file, for messages.
+  std::vector<PlanarPose> goals_W;    ///< Poses to drive to, including the final heading.
+  int random_goals = 0;               ///< Number of goals drawn anew for each seed.
+  std::vector<Kidnapping> kidnapped;  ///< In chronological order.
+  std::optional<RobotBody> body;      ///< None: invisible to waves.
+  Location location;                  ///< Location in the file, for messages.
 };
 
 /// Whether it has waypoints or goals.

@@ -140,7 +140,7 @@ struct LocalizationSpec {
   EstimateLimits limits;
   KnownHeight known_height = KnownHeight::kTag;
   double height_m = 0.0;
-  std::optional<bool> half_turns;  ///< As in KnownBeforehand.
+  std::optional<bool> pi_ambiguity;  ///< As in KnownBeforehand.
   bool offset_known = false;  ///< Whether the antennas' phase offsets are known, as calibrated.
   std::vector<std::string> reference_tags;   ///< IDs of tags with known positions.
   std::optional<PoseErrorModel> pose_error;  ///< Default: that of the pose source.

@@ -72,8 +72,8 @@ class BeliefWatch {
     const auto [entry, is_new] = places_.try_emplace(robot.name());
     Place& place = entry->second;
     if (is_new && !is_given_) place.watch.put(PositionLoss::kStart);
-    if (robot.times_carried() > place.times_carried) place.watch.put(PositionLoss::kCarried);
-    place.times_carried = robot.times_carried();
+    if (robot.times_kidnapped() > place.times_kidnapped) place.watch.put(PositionLoss::kKidnapped);
+    place.times_kidnapped = robot.times_kidnapped();
     const PlanarPose truth = planar(robot.true_pose(0.0));
     const PlanarPose belief = planar(robot.believed_pose(0.0));
     const double off_m = (position_of(truth) - position_of(belief)).norm();
@@ -97,7 +97,7 @@ class BeliefWatch {
  private:
   struct Place {
     PlaceWatch watch;
-    std::size_t times_carried = 0;
+    std::size_t times_kidnapped = 0;
   };
   bool is_given_;
   NavigationRun& navigation_;

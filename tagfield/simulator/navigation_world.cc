@@ -57,20 +57,20 @@ void require_good_starts(const Scenario& scenario, const RobotClearance& clearan
   }
 }
 
-/// Throws Error if a robot is carried into something, or out of the world.
+/// Throws Error if a robot is kidnapped into something, or out of the world.
 void require_good_carryings(const Scenario& scenario, const RobotClearance& clearance,
                             const OccupancyGrid& truth) {
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
-    const std::vector<Carrying>& carried = scenario.robots[i].carried;
-    for (std::size_t j = 0; j < carried.size(); ++j) {
-      if (!carried[j].to_W) continue;
-      const PlanarPose& to_W = *carried[j].to_W;
-      const std::string element = fmt::format("robots[{}].carried[{}]", i, j);
-      require_room(clearance, obstacles_at(scenario.obstacles, carried[j].when), to_W,
-                   carried[j].location, element);
+    const std::vector<Kidnapping>& kidnapped = scenario.robots[i].kidnapped;
+    for (std::size_t j = 0; j < kidnapped.size(); ++j) {
+      if (!kidnapped[j].to_W) continue;
+      const PlanarPose& to_W = *kidnapped[j].to_W;
+      const std::string element = fmt::format("robots[{}].kidnapped[{}]", i, j);
+      require_room(clearance, obstacles_at(scenario.obstacles, kidnapped[j].when), to_W,
+                   kidnapped[j].location, element);
       const Eigen::Vector2i cell = truth.cell_of(position_of(to_W));
       if (is_free(truth.at(cell.x(), cell.y()))) continue;
-      fail(carried[j].location,
+      fail(kidnapped[j].location,
            place_name(element, to_W) +
                " is not on a floor that can be seen from where a robot can go");
     }
@@ -82,8 +82,8 @@ bool draws_places(const Scenario& scenario) {
   return navigation_of(scenario).start == StartBelief::kRandom ||
          std::any_of(scenario.robots.begin(), scenario.robots.end(), [](const RobotSpec& robot) {
            return robot.random_goals > 0 ||
-                  std::any_of(robot.carried.begin(), robot.carried.end(),
-                              [](const Carrying& carrying) { return !carrying.to_W; });
+                  std::any_of(robot.kidnapped.begin(), robot.kidnapped.end(),
+                              [](const Kidnapping& kidnapping) { return !kidnapping.to_W; });
          });
 }
 

@@ -12,9 +12,9 @@ namespace tagfield {
 
 /// Why a robot does not know its pose.
 enum class PositionLoss {
-  kStart,    ///< Its start pose is unknown.
-  kCarried,  ///< It was moved elsewhere.
-  kLost,     ///< It lost its pose by itself.
+  kStart,      ///< Its start pose is unknown.
+  kKidnapped,  ///< It was moved elsewhere.
+  kLost,       ///< It lost its pose by itself.
 };
 
 /// One occasion on which a robot had to find out its pose.

@@ -33,7 +33,7 @@ OdometryReport RemoteDriver::report(Time now) {
   if (seconds <= 0.0) return report;
   const PlanarPose moved = between(last_.pose, report.pose);
   const PlanarPose driven = advance({}, velocity_, seconds);
-  report.covariance = carried_covariance(last_.covariance, last_.pose, driven, noise_);
+  report.covariance = propagated_covariance(last_.covariance, last_.pose, driven, noise_);
   const double forward = moved.x * cosine(0.5 * moved.yaw) + moved.y * sine(0.5 * moved.yaw);
   report.velocity = {forward / seconds, moved.yaw / seconds};
   report.velocity_variance = increment_variances(driven, noise_) / (seconds * seconds);

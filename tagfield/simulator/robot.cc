@@ -59,8 +59,9 @@ void Robot::step(Time now, double seconds) {
   odometry_ = advance(odometry_, measured_, step_seconds_);
   error_begin_ = error_end_;
   step_seconds_ = seconds;
-  while (times_carried_ < spec_.carried.size() && spec_.carried[times_carried_].when <= now) {
-    begin_ = spec_.carried[times_carried_++].to_W.value_or(begin_);
+  while (times_kidnapped_ < spec_.kidnapped.size() &&
+         spec_.kidnapped[times_kidnapped_].when <= now) {
+    begin_ = spec_.kidnapped[times_kidnapped_++].to_W.value_or(begin_);
   }
 
   // Commands are executed by the wheels, the only actuators of a skid-steered robot.

@@ -24,7 +24,7 @@ class SelfDriver;
 class Robot {
  public:
   Robot(const RobotSpec& spec, const PoseBelief& belief, std::uint64_t seed);
-  /// A robot that navigates by itself, from spec.start on. Each of spec.carried must have its
+  /// A robot that navigates by itself, from spec.start on. Each of spec.kidnapped must have its
   /// `to_W`.
   Robot(const RobotSpec& spec, std::unique_ptr<SelfDriver> driver, std::uint64_t seed);
   /// A robot that is driven remotely and believes its wheel odometry. It never arrives.
@@ -48,7 +48,7 @@ class Robot {
   [[nodiscard]] const SelfDriver* self_driver() const { return self_driver_.get(); }
   /// Distance driven up to the end of the current step [m].
   [[nodiscard]] double travelled_m() const { return travelled_m_; }
-  [[nodiscard]] std::size_t times_carried() const { return times_carried_; }
+  [[nodiscard]] std::size_t times_kidnapped() const { return times_kidnapped_; }
   /// Share of its path or of its goals that is done, 0 to 1.
   [[nodiscard]] double progress() const;
 
@@ -67,7 +67,7 @@ class Robot {
   std::uint64_t steps_ = 0;
   double step_seconds_ = 0.0;
   double travelled_m_ = 0.0;
-  std::size_t times_carried_ = 0;
+  std::size_t times_kidnapped_ = 0;
   PlanarPose begin_;       ///< True pose at the beginning of the step.
   BodyVelocity velocity_;  ///< During the step.
   PlanarPose odometry_;    ///< Dead-reckoned pose at the beginning of the step.

@@ -133,7 +133,7 @@ robots:
   - name: cart
     start: [0, 0, 0]
     goals: [[0.4, 0, 0]]
-    carried: [[300, -1, 0, 0]]
+    kidnapped: [[300, -1, 0, 0]]
 antennas:
   - {name: gate, pose: [2, 1, 1], rate_hz: 1}
 tags:
@@ -905,8 +905,8 @@ def robots_in_walls(context):
             ("start: [0, 0, 0]", "start: [3.8, 0, 0]", "robots[0].start", 5),
             ("start: [0, 0, 0]", "start: [-2, -0.7, 0]", "robots[0].start", 5),
             ("start: [0, 0, 0]", "start: [1.9, 1.5, 0]", "robots[0].start", 5),
-            ("[300, -1, 0, 0]", "[3, 1.9, 1, 0]", "robots[0].carried[0]", 8),
-            ("[300, -1, 0, 0]", "[3], [4, -2, -1, 0]", "robots[0].carried[1]", 8)):
+            ("[300, -1, 0, 0]", "[3, 1.9, 1, 0]", "robots[0].kidnapped[0]", 8),
+            ("[300, -1, 0, 0]", "[3], [4, -2, -1, 0]", "robots[0].kidnapped[1]", 8)):
         text = replaced(NAVIGATION, old, new)
         expect_bad_scenario(context, new, text, [says, "wall or an obstacle"], line)
         path = context.write("bad.yaml", text)
@@ -922,9 +922,9 @@ def ways_to_find_that_make_no_sense(context):
             ("goals: [[0.4, 0, 0]]", "goals: [[0.4, 0, .nan]]", "robots[0].goals[0]"),
             ("goals: [[0.4, 0, 0]]", "random_goals: 0", "robots[0].random_goals"),
             ("goals: [[0.4, 0, 0]]", "random_goals: 1e9", "robots[0].random_goals"),
-            ("[[300, -1, 0, 0]]", "[[300, -1, 0]]", ["robots[0].carried[0]", "[t, x, y, yaw]"]),
-            ("[[300, -1, 0, 0]]", "[[30], [20]]", ["robots[0].carried[1]", "later"]),
-            ("[[300, -1, 0, 0]]", "[[-1]]", "robots[0].carried[0]"),
+            ("[[300, -1, 0, 0]]", "[[300, -1, 0]]", ["robots[0].kidnapped[0]", "[t, x, y, yaw]"]),
+            ("[[300, -1, 0, 0]]", "[[30], [20]]", ["robots[0].kidnapped[1]", "later"]),
+            ("[[300, -1, 0, 0]]", "[[-1]]", "robots[0].kidnapped[0]"),
             ("  mode: slam", "  mode: odometry", ["robots[0].goals", "navigation: slam"]),
             ("{beams: 91}", "{beams: 1}", "navigation.laser.beams"),
             ("radius_m: 0.2, position", "radius_m: -0.2, position", "obstacles[0].radius_m")):

@@ -335,7 +335,7 @@ BAD = (  # what stands in the suite's conditions, its line, what is said of it
     ("  - {name: a, seeds: -1}\n", 5, "expected a whole number"),
     ("  - {name: a, set: [1, 2]}\n", 5, "must be a mapping"),
     ("  - {name: a, fault: random_phase}\n", 5, "did you mean 'random_phases'?"),
-    ("  - {name: a, fault: {late_stamps_s: -1}}\n", 5, "must be greater than 0"),
+    ("  - {name: a, fault: {timestamp_delay_s: -1}}\n", 5, "must be greater than 0"),
     ("  - {name: a, fault: {swapped_antennas: [mobile, b]}}\n", 5, "there is no antenna 'b'"),
     ("  - name: a\n    recording: {reads: r, poses: p, truth: t}\n    seeds: 2\n", 7,
      "has no effect on a recording"),

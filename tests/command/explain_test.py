@@ -239,7 +239,7 @@ def tags_nearby_couple(context):
 name: beside
 duration_s: 1
 model: link_budget
-without: [polarization, noise, quantization, phase_offsets, half_turns]
+without: [polarization, noise, quantization, phase_offsets, pi_ambiguity]
 antennas:
   - {name: gate, pose: [-2, 0, 1], pattern: isotropic, gain_dbi: 0, frequency_hz: 866e6}
 tags:
@@ -288,7 +288,7 @@ tags:
 def explains_what_a_run_reads(context):
     """At a read's stamp the link is explained as read, with the RSSI and the phase reported."""
     scenario = context.shipped("paper_warehouse")
-    settings = ("--set", "model=link_budget", "--set", "without=[noise,quantization,half_turns]",
+    settings = ("--set", "model=link_budget", "--set", "without=[noise,quantization,pi_ambiguity]",
                 "--set", "duration_s=20")
     reads = read_csv(context.simulate(scenario, *settings, "--no-page") / "reads.csv")
     check(len(reads) > 100, f"{len(reads)} reads")

@@ -70,7 +70,7 @@ def multipath_with_inventory_is_the_same(context):
 
 @case
 def without_noise_and_steps_the_waves_are_the_same(context):
-    path = scenario(context, "multipath", "without: [noise, quantization, half_turns]")
+    path = scenario(context, "multipath", "without: [noise, quantization, pi_ambiguity]")
     run, _, _ = in_gazebo(context, path)
     expected = reads_in(run)
     actual = reads_in(headless(context, path, run))

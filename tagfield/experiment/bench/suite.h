@@ -46,7 +46,8 @@ struct Faults {
   bool wrong_phase_sign = false;  ///< Phases decrease with distance.
   bool random_rssi = false;       ///< Each RSSI is drawn uniformly from −75 to −35 dBm.
   bool duplicate_epcs = false;    ///< Every other read of a tag has the next tag's ID.
-  double late_stamps_s = 0.0;  ///< Delay of the reads' timestamps relative to those of the poses.
+  double timestamp_delay_s =
+      0.0;  ///< Delay of the reads' timestamps relative to those of the poses.
   std::vector<std::string> swapped_antennas;  ///< Two, whose names are swapped in the reads.
   bool poses_of_another_run = false;          ///< The poses are those of another path.
 };

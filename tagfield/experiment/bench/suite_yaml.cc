@@ -24,7 +24,7 @@ namespace {
 constexpr std::uint64_t kMostSeeds = 1'000'000;
 constexpr double kMostBursts = 1000.0;  // Simultaneously active.
 constexpr double kLeastEvery_s = 1e-3;
-constexpr double kMostLate_s = 3600.0;
+constexpr double kMaxTimestampDelay_s = 3600.0;
 
 std::uint64_t count_of(const YamlValue& value) {
   const std::uint64_t count = value.whole_number();
@@ -114,11 +114,12 @@ Faults faults_in(YamlMap map) {
   faults.random_rssi = is_told(map, "random_rssi");
   faults.duplicate_epcs = is_told(map, "duplicate_epcs");
   faults.poses_of_another_run = is_told(map, "poses_of_another_run");
-  if (map.has("late_stamps_s")) {
-    faults.late_stamps_s = map.at("late_stamps_s").number(kPositive);
-    if (faults.late_stamps_s > kMostLate_s) {
-      map.at("late_stamps_s")
-          .fail(fmt::format("must be at most {}, is {}", kMostLate_s, faults.late_stamps_s));
+  if (map.has("timestamp_delay_s")) {
+    faults.timestamp_delay_s = map.at("timestamp_delay_s").number(kPositive);
+    if (faults.timestamp_delay_s > kMaxTimestampDelay_s) {
+      map.at("timestamp_delay_s")
+          .fail(fmt::format("must be at most {}, is {}", kMaxTimestampDelay_s,
+                            faults.timestamp_delay_s));
     }
   }
   if (map.has("swapped_antennas")) {

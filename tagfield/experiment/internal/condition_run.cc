@@ -41,7 +41,7 @@ class Given {
  private:
   [[nodiscard]] BoundInput bound_input() const {
     KnownBeforehand known = known_;
-    known.half_turns = problem_.half_turns;
+    known.pi_ambiguity = problem_.pi_ambiguity;
     known.pose_error = true_pose_error(condition_.scenario).value_or(PoseErrorModel{});
     Diagnostics unheard;
     BoundInput input;

@@ -65,7 +65,7 @@ std::vector<std::string> fault_names(const Faults& faults) {
   add(faults.wrong_phase_sign, "wrong_phase_sign");
   add(faults.random_rssi, "random_rssi");
   add(faults.duplicate_epcs, "duplicate_epcs");
-  add(faults.late_stamps_s > 0.0, "late_stamps_s");
+  add(faults.timestamp_delay_s > 0.0, "timestamp_delay_s");
   add(!faults.swapped_antennas.empty(), "swapped_antennas");
   add(faults.poses_of_another_run, "poses_of_another_run");
   return names;
@@ -81,7 +81,7 @@ bool has_true_position(const Faults& faults, const std::string& method) {
 }
 
 void add_faults(const Faults& faults, std::uint64_t seed, Recording& recording) {
-  const Duration late = duration_from_seconds(faults.late_stamps_s);
+  const Duration late = duration_from_seconds(faults.timestamp_delay_s);
   for (TagRead& read : recording.reads) {
     draw_anew(faults, seed, read);
     if (faults.constant_phases) read.phase_rad = phase_of_tag(read.tag, seed);

@@ -94,7 +94,7 @@ NavigationSummary navigation_summary(const std::vector<SeedRun>& runs,
   summary.position_error_m = statistics(positions);
   summary.yaw_error_rad = statistics(yaws);
   summary.unknown_starts = findings_of(runs, PositionLoss::kStart);
-  summary.carried = findings_of(runs, PositionLoss::kCarried);
+  summary.kidnapped = findings_of(runs, PositionLoss::kKidnapped);
   summary.lost = findings_of(runs, PositionLoss::kLost);
   return summary;
 }

@@ -47,7 +47,7 @@ TEST(EffectsIn, AreThoseThatDoAnything) {
   for (const EffectSwitch& effect : effects_in(passing_tags())) names.insert(effect.name);
   EXPECT_EQ(names,
             (std::set<std::string>{"patterns", "polarization", "occlusion", "noise", "quantization",
-                                   "hopping", "phase_offsets", "half_turns", "inventory"}));
+                                   "hopping", "phase_offsets", "pi_ambiguity", "inventory"}));
   Scenario beside = passing_tags();
   auto model = std::make_shared<RadioModel>(*physical(beside.antennas[0].parameters));
   model->interference = model->tag_coupling = true;

@@ -145,7 +145,7 @@ TEST(Faults, DuplicateEpcsMixTagsHalfAndHalf) {
 
 TEST(Faults, StampsAreLateAndAntennasSwapped) {
   Faults faults;
-  faults.late_stamps_s = 0.2;
+  faults.timestamp_delay_s = 0.2;
   faults.swapped_antennas = {"left", "top"};
   const std::vector<TagRead> reads = with(faults);
   const std::vector<TagRead> before = three_tags().reads;

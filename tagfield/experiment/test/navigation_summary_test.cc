@@ -48,9 +48,9 @@ TEST(NavigationSummary, CountsWhatIsTrulyReached) {
 TEST(NavigationSummary, SumsFindingsUpBySort) {
   std::vector<SeedRun> runs{run_of(1), run_of(2)};
   runs[0].navigation->findings = {{PositionLoss::kStart, true, 10.0, 2.0, 0},
-                                  {PositionLoss::kCarried, true, 20.0, 4.0, 1}};
+                                  {PositionLoss::kKidnapped, true, 20.0, 4.0, 1}};
   runs[1].navigation->findings = {{PositionLoss::kStart, true, 30.0, 6.0, 0},
-                                  {PositionLoss::kCarried, false, std::nullopt, 0.0, 0}};
+                                  {PositionLoss::kKidnapped, false, std::nullopt, 0.0, 0}};
   runs[1].navigation->collisions = 2;
   runs[1].navigation->closest_m = 0.0;
   const NavigationSummary summary = navigation_summary(runs, world());
@@ -58,11 +58,11 @@ TEST(NavigationSummary, SumsFindingsUpBySort) {
   EXPECT_EQ(summary.unknown_starts->found, 2U);
   EXPECT_EQ(summary.unknown_starts->seconds->mean, 20.0);
   EXPECT_EQ(summary.unknown_starts->driven_m->max, 6.0);
-  ASSERT_TRUE(summary.carried.has_value());
-  EXPECT_EQ(summary.carried->count, 2U);
-  EXPECT_EQ(summary.carried->noticed, 1U);
-  EXPECT_EQ(summary.carried->found, 1U);
-  EXPECT_EQ(summary.carried->wrong, 1U);
+  ASSERT_TRUE(summary.kidnapped.has_value());
+  EXPECT_EQ(summary.kidnapped->count, 2U);
+  EXPECT_EQ(summary.kidnapped->noticed, 1U);
+  EXPECT_EQ(summary.kidnapped->found, 1U);
+  EXPECT_EQ(summary.kidnapped->wrong, 1U);
   EXPECT_FALSE(summary.lost.has_value());
   EXPECT_EQ(summary.collisions, 2U);
   EXPECT_EQ(summary.closest_m, 0.0);

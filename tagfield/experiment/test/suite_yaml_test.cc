@@ -135,14 +135,14 @@ TEST(SuiteYaml, ComplainsOfFileAndLine) {
 TEST(SuiteYaml, ReadsFaults) {
   const SuiteFile file(with_conditions(
       "  - {name: word, fault: duplicate_epcs}\n"
-      "  - {name: map, fault: {random_phases: true, random_rssi: true, late_stamps_s: 0.2}}\n"
+      "  - {name: map, fault: {random_phases: true, random_rssi: true, timestamp_delay_s: 0.2}}\n"
       "  - {name: names, fault: {swapped_antennas: [a, b]}}\n"));
   const Suite suite = load_suite(file.path());
   EXPECT_TRUE(suite.conditions[0].fault.value().duplicate_epcs);
   EXPECT_FALSE(suite.conditions[0].fault->random_phases);
   const Faults& map = suite.conditions[1].fault.value();
   EXPECT_TRUE(map.random_phases && map.random_rssi);
-  EXPECT_EQ(map.late_stamps_s, 0.2);
+  EXPECT_EQ(map.timestamp_delay_s, 0.2);
   EXPECT_EQ(suite.conditions[2].fault.value().swapped_antennas,
             (std::vector<std::string>{"a", "b"}));
 }
@@ -160,8 +160,8 @@ TEST(SuiteYaml, ComplainsOfFaults) {
   EXPECT_EQ(complaint("{random_rssi: false}"),
             "suite.yaml:4: conditions[0].fault.random_rssi is false: leave it out");
   EXPECT_EQ(complaint("{}"), "suite.yaml:4: conditions[0].fault names no fault");
-  EXPECT_EQ(complaint("{late_stamps_s: 4000}"),
-            "suite.yaml:4: conditions[0].fault.late_stamps_s must be at most 3600, is 4000");
+  EXPECT_EQ(complaint("{timestamp_delay_s: 4000}"),
+            "suite.yaml:4: conditions[0].fault.timestamp_delay_s must be at most 3600, is 4000");
   EXPECT_EQ(complaint("{swapped_antennas: [a]}"),
             "suite.yaml:4: conditions[0].fault.swapped_antennas must be the names of two antennas");
   EXPECT_EQ(complaint("{random_phases: true, constant_phases: true}"),

@@ -213,7 +213,7 @@ ScanField scan_field(const LocalizationProblem& problem, const std::string& tag,
     scan.why_not = "the phase could not be followed over a wavelength of the antenna's path";
     return scan;
   }
-  fill(cells, problem.half_turns, scan);
+  fill(cells, problem.pi_ambiguity, scan);
   return scan;
 }
 

@@ -211,7 +211,7 @@ const OptionTable<LandmarcOptions>& landmarc_options() {
 }  // namespace
 
 Method landmarc_method(const LandmarcOptions& options) {
-  return ignoring({"offset", "half_turns", "pose_error", "max_expected_error_m", "max_rms_m"},
+  return ignoring({"offset", "pi_ambiguity", "pose_error", "max_expected_error_m", "max_rms_m"},
                   method_with("landmarc", "the nearest reference tags by RSSI, their mean",
                               landmarc_options(), options, locate_by_references));
 }

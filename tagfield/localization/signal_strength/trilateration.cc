@@ -519,7 +519,7 @@ const OptionTable<TrilaterationOptions>& trilateration_options() {
 
 Method trilateration_method(const TrilaterationOptions& options) {
   return ignoring(
-      {"offset", "half_turns", "pose_error", "max_expected_error_m", "max_rms_m"},
+      {"offset", "pi_ambiguity", "pose_error", "max_expected_error_m", "max_rms_m"},
       method_with("trilateration", "distances by RSSI over a logarithmic law, its slope fitted too",
                   trilateration_options(), options, locate_by_rssi));
 }

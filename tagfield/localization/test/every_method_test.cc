@@ -104,8 +104,8 @@ LocalizationProblem changed_problem(const std::string& key) {
   if (key == "pose_error") problem.pose_error = PoseErrorModel{0.1, 0.1, 2.0};
   if (key == "max_expected_error_m") problem.limits.max_expected_error_m = 1e-6;
   if (key == "max_rms_m") problem.limits.max_rms_m = 1e-6;
-  if (key != "half_turns") return problem;
-  problem.half_turns = true;
+  if (key != "pi_ambiguity") return problem;
+  problem.pi_ambiguity = true;
   for (auto& [tag, of_tag] : problem.samples) {
     for (auto& [antenna, samples] : of_tag) {
       for (PhaseSample& s : samples) {
@@ -138,7 +138,7 @@ TEST(EveryMethod, FindsTheSameWhateverIsKnownOfWhatItIgnores) {
     if (method.name == "auto") continue;  // It ignores what the chosen method ignores.
     const std::string usual = told(method, problem);
     for (const char* const key :
-         {"offset", "half_turns", "pose_error", "max_expected_error_m", "max_rms_m"}) {
+         {"offset", "pi_ambiguity", "pose_error", "max_expected_error_m", "max_rms_m"}) {
       const std::string other = told(method, changed_problem(key));
       if (all_ignore({method}, key)) {
         EXPECT_EQ(other, usual) << method.name << ": " << key;

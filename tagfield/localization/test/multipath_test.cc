@@ -12,9 +12,9 @@
 #include "problem_of.h"
 #include "reflections.h"
 #include "tagfield/base/units.h"
-#include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/holograms/robust.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/localization/pi_ambiguity.h"
 
 namespace tagfield {
 namespace {
@@ -56,7 +56,7 @@ struct TracedStudy {
   double pose_m = 0.0;
   double gain = 0.5;           ///< Reflection coefficient of the walls.
   double believed_gain = 0.5;  ///< The believed one.
-  bool half_turns = false;
+  bool pi_ambiguity = false;
   bool pose_error_stated = true;
   double walls_off_m = 0.0;    ///< Distance of the walls from their believed positions.
   double world_sigma_m = 0.0;  ///< Stated standard deviation of that.
@@ -103,8 +103,8 @@ Hall hall_of(const TracedStudy& study, unsigned seed) {
   }
   hall.problem.pose_error.reset();
   if (study.pose_error_stated) hall.problem.pose_error = PoseErrorModel{study.pose_m, 0.0, 5.0};
-  hall.problem.half_turns = study.half_turns;
-  if (study.half_turns) double_phases(hall.problem.samples);
+  hall.problem.pi_ambiguity = study.pi_ambiguity;
+  if (study.pi_ambiguity) double_phases(hall.problem.samples);
   hall.problem.trace = known(moved(walls(study.believed_gain), study.walls_off_m));
   hall.problem.world_sigma_m = study.world_sigma_m;
   return hall;
@@ -125,14 +125,14 @@ Tally with(const Method& method, const TracedStudy& study, std::size_t* warnings
 }
 
 TEST(Multipath, WithTheWorldKnownReflectionsAreTakenOut) {
-  for (const bool half_turns : {false, true}) {
-    const Tally tally = with(multipath_method(), {.half_turns = half_turns});
-    const Tally robust = with(robust_method(), {.half_turns = half_turns});
-    EXPECT_GE(tally.errors.size(), 7U) << half_turns;  // Of 8.
-    EXPECT_LT(tally.part(0.5), 0.003) << half_turns;
-    EXPECT_LT(tally.errors.back(), 0.05) << half_turns;
-    EXPECT_LT(tally.part(0.5), 0.3 * robust.part(0.5)) << half_turns;
-    EXPECT_LT(tally.calibration(), 1.5) << half_turns;
+  for (const bool pi_ambiguity : {false, true}) {
+    const Tally tally = with(multipath_method(), {.pi_ambiguity = pi_ambiguity});
+    const Tally robust = with(robust_method(), {.pi_ambiguity = pi_ambiguity});
+    EXPECT_GE(tally.errors.size(), 7U) << pi_ambiguity;  // Of 8.
+    EXPECT_LT(tally.part(0.5), 0.003) << pi_ambiguity;
+    EXPECT_LT(tally.errors.back(), 0.05) << pi_ambiguity;
+    EXPECT_LT(tally.part(0.5), 0.3 * robust.part(0.5)) << pi_ambiguity;
+    EXPECT_LT(tally.calibration(), 1.5) << pi_ambiguity;
   }
 }
 
@@ -143,7 +143,7 @@ TEST(Multipath, LocatesWhereReflectionsAreNearlyAsStrongAsTheDirectPath) {
       "checked", "", [](const LocalizationProblem& problem, int threads, Diagnostics& diagnostics) {
         return locate_problem(multipath_method(), problem, threads, diagnostics);
       }};
-  const Tally tally = with(checked, {.gain = 0.8, .believed_gain = 0.8, .half_turns = true});
+  const Tally tally = with(checked, {.gain = 0.8, .believed_gain = 0.8, .pi_ambiguity = true});
   EXPECT_GE(tally.errors.size(), 7U);  // Of 8.
   EXPECT_LT(tally.part(0.5), 0.003);
   EXPECT_EQ(tally.worse_than(0.3), 0U);
@@ -168,7 +168,7 @@ TEST(Multipath, AWorldKnownWronglyIsNoCertainty) {
 }
 
 TEST(Multipath, ErrorsOfAWorldThatIsOffAreExpected) {
-  TracedStudy study{.half_turns = true, .walls_off_m = 0.01};
+  TracedStudy study{.pi_ambiguity = true, .walls_off_m = 0.01};
   const double bold = with(multipath_method(), study).calibration();
   study.world_sigma_m = 0.01;
   const Tally tally = with(multipath_method(), study);
@@ -178,7 +178,7 @@ TEST(Multipath, ErrorsOfAWorldThatIsOffAreExpected) {
 }
 
 TEST(Multipath, AFewReadsThatNoPathExplainsDoNoHarm) {
-  const Tally tally = with(multipath_method(), {.half_turns = true, .strays = 0.05});
+  const Tally tally = with(multipath_method(), {.pi_ambiguity = true, .strays = 0.05});
   EXPECT_GE(tally.errors.size(), 7U);  // Of 8.
   EXPECT_LT(tally.part(0.5), 0.003);
   EXPECT_LT(tally.errors.back(), 0.05);

@@ -6,7 +6,7 @@
 #include "method_study.h"
 #include "problem_of.h"
 #include "reflections.h"
-#include "tagfield/localization/half_turns.h"
+#include "tagfield/localization/pi_ambiguity.h"
 
 namespace tagfield {
 namespace {
@@ -14,15 +14,15 @@ namespace {
 using namespace made;
 
 /// Tally over several halls.
-Tally amid_reflections(double gain, bool half_turns, const Noise& noise) {
+Tally amid_reflections(double gain, bool pi_ambiguity, const Noise& noise) {
   Tally tally;
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
     Rng rng(seed);
     const Path path = aisles(0.03);
     Hall hall = made::hall(path, believed(path, noise, kPathRate, rng), 6, noise, rng);
     reflect(walls(gain), hall);
-    hall.problem.half_turns = half_turns;
-    if (half_turns) double_phases(hall.problem.samples);
+    hall.problem.pi_ambiguity = pi_ambiguity;
+    if (pi_ambiguity) double_phases(hall.problem.samples);
     Diagnostics diagnostics;
     for (const TagEstimate& estimate :
          robust_method().locate(hall.problem, 2, diagnostics).estimates) {
@@ -34,13 +34,13 @@ Tally amid_reflections(double gain, bool half_turns, const Noise& noise) {
 }
 
 TEST(Robust, IsRightAndKnowsHowRightAmidStrongReflections) {
-  for (const bool half_turns : {false, true}) {
-    const Tally tally = amid_reflections(0.5, half_turns, Noise{});
-    EXPECT_GE(tally.errors.size(), 18U) << half_turns;  // Of 24.
-    EXPECT_LT(tally.errors.back(), 0.3) << half_turns;
-    EXPECT_LT(tally.part(0.5), 0.04) << half_turns;
-    EXPECT_GT(tally.calibration(), 0.4) << half_turns;
-    EXPECT_LT(tally.calibration(), 1.5) << half_turns;
+  for (const bool pi_ambiguity : {false, true}) {
+    const Tally tally = amid_reflections(0.5, pi_ambiguity, Noise{});
+    EXPECT_GE(tally.errors.size(), 18U) << pi_ambiguity;  // Of 24.
+    EXPECT_LT(tally.errors.back(), 0.3) << pi_ambiguity;
+    EXPECT_LT(tally.part(0.5), 0.04) << pi_ambiguity;
+    EXPECT_GT(tally.calibration(), 0.4) << pi_ambiguity;
+    EXPECT_LT(tally.calibration(), 1.5) << pi_ambiguity;
   }
 }
 

@@ -103,7 +103,7 @@ TEST(Measure, NoiseIsNormalWithTheSigmaOfTheSignal) {
   EXPECT_LT(worst, std::sqrt(std::log(2e6) / (2.0 * kReads)));
 }
 
-TEST(Measure, HalfTurnsComeInHalfOfTheReads) {
+TEST(Measure, PiAmbiguityComeInHalfOfTheReads) {
   int turned = 0;
   constexpr int kReads = 10000;
   for (int i = 0; i < kReads; ++i) {

@@ -30,7 +30,7 @@ Summary navigated_summary() {
   navigation.goals_reached = 4;
   navigation.closest_m = 0.49;
   navigation.goals_unreached = {{7, {3.0, 1.5, 0.0}, "no way <there>"}};
-  navigation.carried =
+  navigation.kidnapped =
       FindingSummary{20, 20, 18, 1, statistics({10.0, 30.0}), statistics({2.0, 6.0})};
   summary.navigation = navigation;
   return summary;
@@ -152,7 +152,7 @@ TEST(NavigationTable, SaysInWords) {
   EXPECT_TRUE(holds(table, "Not reached</th><td>(3.00, 1.50) m</td>")) << table;
   EXPECT_TRUE(holds(table, "with seed 7: no way &lt;there&gt;"));
   EXPECT_TRUE(holds(table, "Collisions</th><td>0</td>"));
-  EXPECT_TRUE(holds(table, "Carried away</th><td>18 of 20</td>"));
+  EXPECT_TRUE(holds(table, "Kidnapped</th><td>18 of 20</td>"));
   EXPECT_TRUE(holds(table,
                     "4.0 m and 20 s on average, 6.0 m and 30 s at most; mistook another place for "
                     "its own 1 time"));

@@ -24,7 +24,7 @@ NavigationSummary full_navigation() {
   navigation.times_lost = 1;
   navigation.unknown_starts =
       FindingSummary{20, 20, 19, 1, statistics({10.0, 30.0}), statistics({2.0, 6.0})};
-  navigation.carried = FindingSummary{2, 1, 0, 0, std::nullopt, std::nullopt};
+  navigation.kidnapped = FindingSummary{2, 1, 0, 0, std::nullopt, std::nullopt};
   return navigation;
 }
 
@@ -114,9 +114,9 @@ TEST(SummaryJson, TellsHowRobotsFoundTheirWay) {
   ASSERT_TRUE(navigation.unknown_starts);
   EXPECT_EQ(navigation.unknown_starts->found, 19U);
   EXPECT_EQ(navigation.unknown_starts->driven_m->max, 6.0);
-  ASSERT_TRUE(navigation.carried);
-  EXPECT_EQ(navigation.carried->noticed, 1U);
-  EXPECT_FALSE(navigation.carried->seconds);
+  ASSERT_TRUE(navigation.kidnapped);
+  EXPECT_EQ(navigation.kidnapped->noticed, 1U);
+  EXPECT_FALSE(navigation.kidnapped->seconds);
   EXPECT_FALSE(navigation.lost);
 }
 

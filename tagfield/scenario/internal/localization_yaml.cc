@@ -59,7 +59,7 @@ void warn_of_ignored(YamlMap& map, const std::vector<Method>& used, Diagnostics&
   names.reserve(used.size());
   for (const Method& method : used) names.push_back(method.name);
   for (const char* const key :
-       {"offset", "half_turns", "pose_error", "max_expected_error_m", "max_rms_m"}) {
+       {"offset", "pi_ambiguity", "pose_error", "max_expected_error_m", "max_rms_m"}) {
     if (!map.has(key) || !all_ignore(used, key)) continue;
     diagnostics.warn(map.at(key).location(), fmt::format("localization.{} has no effect with {}",
                                                          key, fmt::join(names, " and ")));
@@ -134,7 +134,7 @@ LocalizationSpec localization_of(const YamlValue& value, const std::vector<Metho
     return spec;
   }
   read_methods(map, methods, spec, diagnostics);
-  if (map.has("half_turns")) spec.half_turns = map.at("half_turns").boolean();
+  if (map.has("pi_ambiguity")) spec.pi_ambiguity = map.at("pi_ambiguity").boolean();
   if (map.has("offset")) spec.offset_known = choice(map.at("offset"), {"unknown", "known"}) == 1;
   for (const YamlValue& tag : map.list("reference_tags")) spec.reference_tags.push_back(tag.text());
   if (map.has("pose_error")) spec.pose_error = pose_error_of(YamlMap(map.at("pose_error")));

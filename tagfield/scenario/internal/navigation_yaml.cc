@@ -43,17 +43,17 @@ StartBelief start_of(const YamlValue& value) {
 }
 
 /// [t, x, y, yaw], or [t] for a random pose.
-Carrying carrying_of(const YamlValue& row) {
+Kidnapping kidnapping_of(const YamlValue& row) {
   const std::vector<double> n = row.numbers(1, 4);
   if (n.size() != 1 && n.size() != 4) {
     row.fail("must be [t, x, y, yaw], or [t] for a random place");
   }
-  Carrying carrying;
-  carrying.location = row.location();
-  carrying.when = time_from_seconds(seconds_of(row.list().front(), kNotNegative));
+  Kidnapping kidnapping;
+  kidnapping.location = row.location();
+  kidnapping.when = time_from_seconds(seconds_of(row.list().front(), kNotNegative));
   for (std::size_t i = 1; i < n.size(); ++i) row.require_length(n[i]);
-  if (n.size() == 4) carrying.to_W = PlanarPose{n[1], n[2], n[3]};
-  return carrying;
+  if (n.size() == 4) kidnapping.to_W = PlanarPose{n[1], n[2], n[3]};
+  return kidnapping;
 }
 
 LaserParameters laser_of(YamlMap map) {
@@ -139,12 +139,12 @@ void read_self_driving(YamlMap& map, RobotSpec& robot) {
     robot.goals_W.push_back({n[0], n[1], n[2]});
   }
   robot.random_goals = count_of(map, "random_goals", 0, 1, 100'000);
-  for (const YamlValue& row : map.list("carried")) {
-    const Carrying carrying = carrying_of(row);
-    if (!robot.carried.empty() && carrying.when <= robot.carried.back().when) {
+  for (const YamlValue& row : map.list("kidnapped")) {
+    const Kidnapping kidnapping = kidnapping_of(row);
+    if (!robot.kidnapped.empty() && kidnapping.when <= robot.kidnapped.back().when) {
       row.fail("must be later than the one before it");
     }
-    robot.carried.push_back(carrying);
+    robot.kidnapped.push_back(kidnapping);
   }
   const int kinds = static_cast<int>(!robot.waypoints.empty()) +
                     static_cast<int>(!robot.goals_W.empty()) +
@@ -153,7 +153,7 @@ void read_self_driving(YamlMap& map, RobotSpec& robot) {
 }
 
 void forbid_self_driving(YamlMap map) {
-  for (const char* key : {"goals", "random_goals", "carried"}) {
+  for (const char* key : {"goals", "random_goals", "kidnapped"}) {
     if (map.has(key)) map.at(key).fail("is only for robots with 'navigation: slam'");
   }
 }

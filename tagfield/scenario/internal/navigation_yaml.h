@@ -14,8 +14,8 @@ namespace tagfield {
 /// listed in docs/scenario.md.
 PoseSource read_navigation(const YamlValue& value, NavigationSpec& navigation);
 
-/// A robot's `goals`, `random_goals` and `carried`. Throws Error if it has more than one of goals,
-/// random goals and waypoints.
+/// A robot's `goals`, `random_goals` and `kidnapped`. Throws Error if it has more than one of
+/// goals, random goals and waypoints.
 void read_self_driving(YamlMap& map, RobotSpec& robot);
 
 /// Throws Error if a robot has keys that are only for robots that navigate by themselves.

@@ -103,10 +103,10 @@ TEST(IdleKeys, ATimeOfCorrelationNeedsAnError) {
 }
 
 TEST(IdleKeys, WhatNoMethodUsesIsWarnedOf) {
-  const std::string keys = "max_rms_m: 0.1, offset: known, half_turns: true}\n";
+  const std::string keys = "max_rms_m: 0.1, offset: known, pi_ambiguity: true}\n";
   EXPECT_EQ(warnings_of(hall("paper", "", "localization: {method: trilateration, " + keys)),
             (Warnings{"9: localization.offset has no effect with trilateration",
-                      "9: localization.half_turns has no effect with trilateration",
+                      "9: localization.pi_ambiguity has no effect with trilateration",
                       "9: localization.max_rms_m has no effect with trilateration"}));
   EXPECT_EQ(
       warnings_of(

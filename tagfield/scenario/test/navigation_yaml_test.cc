@@ -144,18 +144,18 @@ TEST(NavigationYaml, NamesTheNearestOfItsWords) {
   EXPECT_TRUE(holds(navigation_complaint("", "{laser: 3}"), "navigation.laser"));
 }
 
-TEST(SelfDrivingYaml, TakesGoalsAndCarryings) {
+TEST(SelfDrivingYaml, TakesGoalsAndKidnappings) {
   const RobotSpec goals = load(", goals: [[1, 2, 0.5], [3, 4, 0]]", "slam").robots[0];
   ASSERT_EQ(goals.goals_W.size(), 2U);
   EXPECT_EQ(goals.goals_W[0].yaw, 0.5);
   EXPECT_TRUE(drives(goals));
   const RobotSpec drawn =
-      load(", random_goals: 7, carried: [[10, 1, 2, 3], [20]]", "slam").robots[0];
+      load(", random_goals: 7, kidnapped: [[10, 1, 2, 3], [20]]", "slam").robots[0];
   EXPECT_EQ(drawn.random_goals, 7);
-  ASSERT_EQ(drawn.carried.size(), 2U);
-  EXPECT_EQ(drawn.carried[0].when, time_from_seconds(10.0));
-  EXPECT_EQ(drawn.carried[0].to_W.value().y, 2.0);
-  EXPECT_FALSE(drawn.carried[1].to_W.has_value());
+  ASSERT_EQ(drawn.kidnapped.size(), 2U);
+  EXPECT_EQ(drawn.kidnapped[0].when, time_from_seconds(10.0));
+  EXPECT_EQ(drawn.kidnapped[0].to_W.value().y, 2.0);
+  EXPECT_FALSE(drawn.kidnapped[1].to_W.has_value());
 }
 
 TEST(SelfDrivingYaml, RefusesWhatMakesNoSense) {
@@ -167,15 +167,15 @@ TEST(SelfDrivingYaml, RefusesWhatMakesNoSense) {
       {", random_goals: some", "4: robots[0].random_goals"},
       {", random_goals: 2, goals: [[1, 2, 3]]", "4: robots[0] must have only one of"},
       {", waypoints: [[1, 2]], goals: [[1, 2, 3]]", "4: robots[0] must have only one of"},
-      {", carried: [[1, 2]]", "4: robots[0].carried[0] must be [t, x, y, yaw]"},
-      {", carried: [[-1]]", "4: robots[0].carried[0]"},
-      {", carried: [[1e300]]", "4: robots[0].carried[0]"},
-      {", carried: [[5], [5]]", "4: robots[0].carried[1] must be later"}};
+      {", kidnapped: [[1, 2]]", "4: robots[0].kidnapped[0] must be [t, x, y, yaw]"},
+      {", kidnapped: [[-1]]", "4: robots[0].kidnapped[0]"},
+      {", kidnapped: [[1e300]]", "4: robots[0].kidnapped[0]"},
+      {", kidnapped: [[5], [5]]", "4: robots[0].kidnapped[1] must be later"}};
   for (const auto& [robot, says] : table) {
     EXPECT_EQ(navigation_complaint(robot, "slam").rfind(says, 0), 0U)
         << navigation_complaint(robot, "slam");
   }
-  for (const char* key : {"goals: [[1, 2, 3]]", "random_goals: 1", "carried: [[1]]"}) {
+  for (const char* key : {"goals: [[1, 2, 3]]", "random_goals: 1", "kidnapped: [[1]]"}) {
     EXPECT_TRUE(holds(navigation_complaint(std::string(", ") + key, "truth"), "navigation: slam"))
         << key;
   }

@@ -112,7 +112,7 @@ void add_power_settings(std::vector<Setting<AntennaDraft>>& all) {
   all.push_back({{"without", "effects",
                   "effects to leave out: patterns, polarization, occlusion, "
                   "reflections, diffraction, bodies, diffuse, noise, quantization, hopping, "
-                  "phase_offsets, half_turns, inventory, interference, coupling"},
+                  "phase_offsets, pi_ambiguity, inventory, interference, coupling"},
                  set_without});
 }
 

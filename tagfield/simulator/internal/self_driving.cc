@@ -11,7 +11,7 @@ namespace tagfield {
 namespace {
 
 /// What a random pose is drawn for.
-enum class PositionDraw : std::uint64_t { kStart, kGoal, kCarried };
+enum class PositionDraw : std::uint64_t { kStart, kGoal, kKidnapped };
 
 /// Uncertainty of a robot's pose after it was placed by hand.
 constexpr double kPlacedSigma_m = 0.02;
@@ -54,9 +54,9 @@ Robot self_driving_robot(const Scenario& scenario, RobotSpec robot, const SelfDr
   if (navigation_of(scenario).start == StartBelief::kRandom) {
     robot.start = drawn_position(world, robot, seed, PositionDraw::kStart, 0);
   }
-  for (std::size_t i = 0; i < robot.carried.size(); ++i) {
-    std::optional<PlanarPose>& to_W = robot.carried[i].to_W;
-    if (!to_W) to_W = drawn_position(world, robot, seed, PositionDraw::kCarried, i);
+  for (std::size_t i = 0; i < robot.kidnapped.size(); ++i) {
+    std::optional<PlanarPose>& to_W = robot.kidnapped[i].to_W;
+    if (!to_W) to_W = drawn_position(world, robot, seed, PositionDraw::kKidnapped, i);
   }
   auto driver = std::make_unique<SelfDriver>(navigation_of(scenario), robot.style.speed_m_s, world,
                                              *driving.map, driving.walls, start, goals, seed,

@@ -63,19 +63,19 @@ TEST(NavigationWorld, RefusesRobotsInWalls) {
   EXPECT_TRUE(holds(complaint(scenario), "s.yaml:9: robots[0].start (2.90, 0.00) puts the robot"))
       << complaint(scenario);
   scenario.robots[0].start = {0.0, 0.0, 0.0};
-  scenario.robots[0].carried = {{Time{}, PlanarPose{0.5, 0.0, 0.0}, {"s.yaml", 10}},
-                                {Time{}, PlanarPose{2.5, 1.6, 0.0}, {"s.yaml", 11}}};
-  EXPECT_TRUE(holds(complaint(scenario), "s.yaml:11: robots[0].carried[1] (2.50, 1.60)"));
-  scenario.robots[0].carried.pop_back();
+  scenario.robots[0].kidnapped = {{Time{}, PlanarPose{0.5, 0.0, 0.0}, {"s.yaml", 10}},
+                                  {Time{}, PlanarPose{2.5, 1.6, 0.0}, {"s.yaml", 11}}};
+  EXPECT_TRUE(holds(complaint(scenario), "s.yaml:11: robots[0].kidnapped[1] (2.50, 1.60)"));
+  scenario.robots[0].kidnapped.pop_back();
   EXPECT_EQ(complaint(scenario), "no complaint");
   ObstacleSpec box;
   box.radius_m = 0.3;
   box.motion = {{Time{}, from_translation({0.7, 0.2, 0.0})}};
   scenario.obstacles = {box};
-  EXPECT_TRUE(holds(complaint(scenario), "robots[0].carried[0]"));
+  EXPECT_TRUE(holds(complaint(scenario), "robots[0].kidnapped[0]"));
   scenario.obstacles.clear();
-  scenario.robots[0].carried[0].to_W = PlanarPose{0.0, 9.0, 0.0};
-  EXPECT_TRUE(holds(complaint(scenario), "robots[0].carried[0] (0.00, 9.00) is not on a floor"));
+  scenario.robots[0].kidnapped[0].to_W = PlanarPose{0.0, 9.0, 0.0};
+  EXPECT_TRUE(holds(complaint(scenario), "robots[0].kidnapped[0] (0.00, 9.00) is not on a floor"));
 }
 
 TEST(NavigationWorld, NeedsAWorldAndSomewhereToGo) {

@@ -51,20 +51,20 @@ TEST(PlaceWatch, CountsWrongPlaces) {
   EXPECT_NEAR(looks.watch.findings()[0].seconds.value(), 11.5, 1e-9);
 }
 
-TEST(PlaceWatch, TellsCarryingsApart) {
+TEST(PlaceWatch, TellsKidnappingsApart) {
   Looks looks;
   looks.go_on(2.0, true, 0.01);
-  looks.watch.put(PositionLoss::kCarried);
+  looks.watch.put(PositionLoss::kKidnapped);
   looks.go_on(3.0, true, 5.0);  // It does not notice yet. That is not a wrong finding.
   looks.go_on(4.0, false, 5.0);
   looks.go_on(2.0, true, 0.01);
   looks.go_on(1.0, false, 0.01);  // It loses its pose by itself,
   looks.go_on(2.0, true, 0.01);
-  looks.watch.put(PositionLoss::kCarried);
-  looks.go_on(2.0, true, 3.0);  // and never notices the second carrying.
+  looks.watch.put(PositionLoss::kKidnapped);
+  looks.go_on(2.0, true, 3.0);  // and never notices the second kidnapping.
   const std::vector<Finding>& findings = looks.watch.findings();
   ASSERT_EQ(findings.size(), 3U);
-  EXPECT_EQ(findings[0].why, PositionLoss::kCarried);
+  EXPECT_EQ(findings[0].why, PositionLoss::kKidnapped);
   EXPECT_TRUE(findings[0].noticed);
   EXPECT_EQ(findings[0].wrong, 0);
   EXPECT_NEAR(findings[0].seconds.value(), 7.0, 1e-9);

@@ -108,8 +108,8 @@ TEST(RobotSenses, StraightenSweptScans) {
   EXPECT_GT(alike, 150);
 }
 
-/// Carried away between two steps: seen by the laser, not by the odometry.
-TEST(RobotSenses, WheelsDontNoticeACarrying) {
+/// Kidnapped between two steps: seen by the laser, not by the odometry.
+TEST(RobotSenses, WheelsDontNoticeAKidnapping) {
   RobotSenses senses(room(), exact_laser(), kNoNoise, 1, 1);
   senses.step({0.0, 0.0, 0.0}, {0.0, 0.0}, at(0.0), 0.05);
   senses.step({0.0, 0.0, 0.0}, {0.0, 0.0}, at(0.05), 0.05);

@@ -33,7 +33,7 @@ struct Gate {
   double phase_step_rad = 0.0;
   std::vector<double> channels_hz{865.7e6};
   double dwell_s = 0.4;
-  bool half_turns = false;
+  bool pi_ambiguity = false;
 };
 
 using Motion = std::function<Eigen::Vector3d(double)>;
@@ -60,7 +60,7 @@ inline void read_motion(const Gate& gate, const std::string& tag, const Motion& 
       const double frequency = gate.channels_hz[channel];
       double phase = 2.0 * kTwoPi / wavelength(frequency) * r + offset(a, channel) +
                      normal(rng, gate.noise_rad);
-      if (gate.half_turns && uniform(rng, 0.0, 1.0) < 0.5) phase += kPi;
+      if (gate.pi_ambiguity && uniform(rng, 0.0, 1.0) < 0.5) phase += kPi;
       if (gate.phase_step_rad > 0.0) {
         phase = std::round(phase / gate.phase_step_rad) * gate.phase_step_rad;
       }
@@ -82,7 +82,7 @@ inline LocalizationProblem problem_of(const Gate& gate, const std::vector<TagRea
                                       double height_m) {
   KnownBeforehand known;
   known.heights.of_all = height_m;
-  known.half_turns = gate.half_turns;
+  known.pi_ambiguity = gate.pi_ambiguity;
   Diagnostics diagnostics;
   return make_problem(reads, poses_of(gate), known, diagnostics);
 }

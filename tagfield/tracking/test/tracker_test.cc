@@ -80,8 +80,8 @@ std::vector<Case> cases() {
     one.gate.channels_hz = {865.7e6, 866.3e6, 866.9e6, 867.5e6};
     one.gate.rate_hz = 30.0;
   });
-  add("half turns", 1.0, [](Case& one) {
-    one.gate.half_turns = true;
+  add("pi ambiguity", 1.0, [](Case& one) {
+    one.gate.pi_ambiguity = true;
     one.gate.rate_hz = 30.0;
   });
   add("128 steps", 1.0, [](Case& one) { one.gate.phase_step_rad = kTwoPi / 128.0; });
@@ -232,7 +232,7 @@ TEST(Tracker, AntennasOnARobotFollowATagToo) {
   }
   KnownBeforehand known;
   known.heights.of_all = kBeltHeight;
-  known.half_turns = false;
+  known.pi_ambiguity = false;
   Diagnostics diagnostics;
   const auto problem = make_problem(reads, poses, known, diagnostics);
   const auto tracks = track_tags(problem, belt_options(), 1, diagnostics);

@@ -219,7 +219,7 @@ double first_noise(const LocalizationProblem& problem) {
       if (noise > 0.0) of_series.push_back(noise);
     }
   }
-  const double usual = problem.half_turns ? 0.2 : 0.1;
+  const double usual = problem.pi_ambiguity ? 0.2 : 0.1;
   return of_series.empty() ? usual : std::max(median(std::move(of_series)), 1e-3);
 }
 

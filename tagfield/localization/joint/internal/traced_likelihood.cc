@@ -44,7 +44,7 @@ Difference difference(const TracedSearch& search, const NearReply& reply, double
   const ReplyPhasors there = reply_phasors(reply, x, y, z);
   Tile cosine = there.in_phase;
   Tile sine = there.quadrature;
-  if (search.problem.half_turns) {
+  if (search.problem.pi_ambiguity) {
     sine = 2.0f * there.in_phase * there.quadrature;
     cosine = there.in_phase.square() - there.quadrature.square();
   }

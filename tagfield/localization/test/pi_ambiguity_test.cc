@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/localization/half_turns.h"
+#include "tagfield/localization/pi_ambiguity.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 constexpr double kFrequency = 865.7e6;
 
 /// Reads by an antenna that passes a tag in steps of `step_m`.
-SamplesByTag passing(double step_m, double noise_rad, bool half_turns, std::uint64_t seed) {
+SamplesByTag passing(double step_m, double noise_rad, bool pi_ambiguity, std::uint64_t seed) {
   SamplesByTag samples;
   RandomStream stream(seed, Purpose::kReadNoise);
   for (int i = 0; i < 400; ++i) {
@@ -23,26 +23,26 @@ SamplesByTag passing(double step_m, double noise_rad, bool half_turns, std::uint
     const double distance = (p - Eigen::Vector3d(0.3, 2.0, 1.2)).norm();
     double phase = 4.0 * kPi * distance / wavelength(kFrequency);
     phase += noise_rad * standard_normal(stream);
-    if (half_turns && (stream() & 1U) != 0) phase += kPi;
+    if (pi_ambiguity && (stream() & 1U) != 0) phase += kPi;
     samples["tag"]["antenna"].push_back({Time(Duration(i)), wrap_to_two_pi(phase), kFrequency, p});
   }
   return samples;
 }
 
-RC_GTEST_PROP(HalfTurns, AreFoundWhereTheyAreAndNowhereElse, ()) {
+RC_GTEST_PROP(PiAmbiguity, AreFoundWhereTheyAreAndNowhereElse, ()) {
   const double step = 0.0001 * *rc::gen::inRange(10, 210);
   const double noise = 0.01 * *rc::gen::inRange(0, 31);
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-  RC_ASSERT(has_half_turns(passing(step, noise, true, seed)));
-  RC_ASSERT(!has_half_turns(passing(step, noise, false, seed)));
+  RC_ASSERT(has_pi_ambiguity(passing(step, noise, true, seed)));
+  RC_ASSERT(!has_pi_ambiguity(passing(step, noise, false, seed)));
 }
 
-TEST(HalfTurns, AreNotClaimedWhereStepsAreTooLongToTell) {
-  EXPECT_FALSE(has_half_turns(passing(0.05, 0.1, true, 1)));
-  EXPECT_FALSE(has_half_turns({}));
+TEST(PiAmbiguity, AreNotClaimedWhereStepsAreTooLongToTell) {
+  EXPECT_FALSE(has_pi_ambiguity(passing(0.05, 0.1, true, 1)));
+  EXPECT_FALSE(has_pi_ambiguity({}));
 }
 
-TEST(DoublePhases, GivesThePhaseOfHalfTheWavelengthWhateverTheHalfTurns) {
+TEST(DoublePhases, GivesThePhaseOfHalfTheWavelengthWhateverThePiAmbiguity) {
   SamplesByTag with = passing(0.01, 0.0, true, 3);
   double_phases(with);
   for (const PhaseSample& sample : with["tag"]["antenna"]) {

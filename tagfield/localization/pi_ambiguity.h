@@ -11,7 +11,7 @@ namespace tagfield {
 /// which the antenna moved less than λ/16, so that the phase changed by less than π/4: true if the
 /// mean of cos 2Δφ exceeds that of cos Δφ by clearly more than chance. False if there are fewer
 /// than 100 such pairs.
-bool has_half_turns(const SamplesByTag& samples);
+bool has_pi_ambiguity(const SamplesByTag& samples);
 
 /// Makes phases independent of the π ambiguity: doubles the phase and the carrier frequency. All
 /// later computations with phase and wavelength remain valid, at half the wavelength.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/localization/half_turns.h"
+#include "tagfield/localization/pi_ambiguity.h"
 
 #include <cmath>
 
@@ -37,7 +37,7 @@ void look_at(const std::vector<PhaseSample>& series, Means& means) {
 
 }  // namespace
 
-bool has_half_turns(const SamplesByTag& samples) {
+bool has_pi_ambiguity(const SamplesByTag& samples) {
   Means means;
   for (const auto& [tag, of_tag] : samples) {
     for (const auto& [antenna, series] : of_tag) look_at(series, means);
