@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads of a live world in JavaScript, with what Node.js has:
+// Reads from a live world in JavaScript, with Node.js alone:
 //
 //   tagfield serve scenarios/portal.yaml &
 //   node examples/08_live_client/reads.mjs http://127.0.0.1:8080 tag_01
 //
-// Prints each read of a tag, and how far away the reader's phase says that it has moved since the one
-// before on the same antenna and carrier, modulo half a wavelength.
+// Prints each read of a tag, and how far it has moved away from the antenna according to the phase since the
+// previous read on the same antenna and carrier, modulo half a wavelength.
 const [server = "http://127.0.0.1:8080", tag = "tag_01", most = "Infinity"] = process.argv.slice(2);
 const SPEED_OF_LIGHT = 299792458;
 const before = new Map();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What others say of what Tagfield wrote, their packages lying in PACKAGES/node_modules:
+// Checks Tagfield's output with third-party libraries, whose packages are in PACKAGES/node_modules:
 //
-//   node others.mjs PACKAGES epcis SCHEMA FILE   whether a document of EPCIS, or each line of a .jsonl, is valid by
+//   node others.mjs PACKAGES epcis SCHEMA FILE   validates an EPCIS document, or each line of a .jsonl file, against
 //                                                GS1's JSON schema
-//   node others.mjs PACKAGES epc < URIS          a line of hexadecimal digits for each tag URI
+//   node others.mjs PACKAGES epc < URIS          prints a line of hexadecimal digits for each tag URI
 //
-// Ends with code 1 and lines on standard error where something is not valid.
+// Exits with code 1 and lines on standard error if something is not valid.
 import fs from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";

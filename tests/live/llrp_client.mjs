@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What llrpjs, a client and codec of LLRP that others made, makes of our reader:
+// Tests our LLRP reader with llrpjs, an independent LLRP client and codec:
 //
 //   node llrp_client.mjs PACKAGES PORT
 //
-// Goes through what clients do, has each message decoded by llrpjs, and prints what it found as JSON.
+// Runs a typical client session, decodes each message with llrpjs, and prints the results as JSON.
 import { createRequire } from "node:module";
 
 const [packages, port] = process.argv.slice(2);
@@ -23,7 +23,7 @@ reader.on("error", (error) => {
   process.exit(1);
 });
 
-// Not by transact(), which takes the next message that comes for the answer.
+// Not with transact(), which mistakes the next message that arrives for the response.
 async function ask(name, data) {
   const answered = new Promise((done) => reader.once(`${name}_RESPONSE`, done));
   await reader.send(new LLRPCore[name](data === undefined ? {} : { data }));
@@ -70,7 +70,7 @@ const events = ["ROSpec_Event", "AISpec_Event", "Antenna_Event"].map((EventType)
 }));
 
 await reader.connect();
-await reader.recv(7000); // that the reader has taken the connection
+await reader.recv(7000); // the event that the reader has accepted the connection
 await ask("GET_READER_CAPABILITIES", { RequestedData: "All" });
 await ask("SET_READER_CONFIG", {
   ResetToFactoryDefault: true,
@@ -87,7 +87,7 @@ while (found.reports.length < 100) await new Promise((done) => setTimeout(done, 
 await ask("STOP_ROSPEC", { ROSpecID: 7 });
 await ask("DISABLE_ROSPEC", { ROSpecID: 7 });
 await ask("GET_ACCESSSPECS");
-// llrpjs takes one message each time that something arrives: keepalives bring it to the last one.
+// llrpjs handles one message each time data arrives: keepalives make it reach the last one.
 await new Promise((done) => setTimeout(done, 1500));
 const gone = new Promise((done) => reader.once("disconnect", done));
 await Promise.race([ask("CLOSE_CONNECTION"), gone]);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// MCAP files seen through @mcap/core, whose packages lie in PACKAGES/node_modules:
+// Reads and writes MCAP files with @mcap/core, whose packages are in PACKAGES/node_modules:
 //
 //   node others.mjs PACKAGES read FILE                 what its two readers find, as JSON
-//   node others.mjs PACKAGES query FILE TOPIC FROM TO  messages of a topic and times, by the index
-//   node others.mjs PACKAGES decode FILE               each topic's messages as ROS 2's schemas say, as JSON
-//   node others.mjs PACKAGES write FILE none|zstd|flat a file of its writer; flat: without chunks
+//   node others.mjs PACKAGES query FILE TOPIC FROM TO  messages of a topic in a time range, by the index
+//   node others.mjs PACKAGES decode FILE               messages of each topic by their ROS 2 schemas, as JSON
+//   node others.mjs PACKAGES write FILE none|zstd|flat writes a file with its writer; flat: without chunks
 //
-// Ends with code 1 and a line on standard error where a reader refuses the file.
+// Exits with code 1 and a line on standard error if a reader rejects the file.
 import fs from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
@@ -78,7 +78,7 @@ async function byIndex(bytes) {
   };
 }
 
-// A stream comes in pieces of any size.
+// A stream arrives in pieces of any size.
 function byStream(bytes) {
   const reader = new McapStreamReader({ decompressHandlers, includeChunks: true });
   const messages = [];
@@ -95,14 +95,14 @@ function byStream(bytes) {
   return { done: reader.done(), left: reader.bytesRemaining(), messages, kinds, isRightData };
 }
 
-// The reader does not look at this CRC. Its record is the last before the summary.
+// The reader does not verify this CRC. Its record is the last one before the summary.
 function dataCrc(bytes, expected) {
   const footer = bytes.length - 8 - 29;
   const end = Number(bytes.readBigUInt64LE(footer + 9)) - 13;
   return expected !== 0 && crc32(bytes.subarray(0, end)) === expected;
 }
 
-// Without the numbers that JSON doesn't have.
+// Converts values that JSON does not have: typed arrays, bigints, NaN and infinities.
 const asJson = (key, value) => (ArrayBuffer.isView(value) ? [...value] : typeof value === "bigint"
   ? Number(value) : typeof value === "number" && !Number.isFinite(value) ? String(value) : value);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles the page: one file of HTML with script and style inside, which asks the network for
-// nothing.
+// Bundles the page into one self-contained HTML file with inline script and style, which loads
+// nothing else from the network.
 //
 //   node build.mjs OUT.html [--modules DIR]
 //
-// The server hands it out; a report takes its script, which then shows the run in <script
-// type="application/json" id="tagfield-run">. DIR holds node_modules (default: beside this file).
+// The server serves it. A report embeds its script, which then shows the run from <script
+// type="application/json" id="tagfield-run">. DIR contains node_modules (default: this folder).
 
 import {createHash} from "node:crypto";
 import {readFileSync, writeFileSync} from "node:fs";
@@ -59,5 +59,5 @@ const {output, modules} = parse(process.argv.slice(2));
 const script = await bundle(modules);
 const hash = createHash("sha256").update(script).digest("base64");
 const page = readFileSync(path.join(HERE, "page.html"), "utf8").replace("SCRIPT_HASH", hash);
-// By a function, since "$" in the script must not be taken for a pattern.
+// A replacement function, as "$" in the script must not be interpreted as a pattern.
 writeFileSync(output, page.replace("<!--script-->", () => `<script>${script}</script>`));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formulas as KaTeX draws them.
+// Renders formulas with KaTeX.
 document.addEventListener("DOMContentLoaded", () => {
-  if (typeof katex === "undefined") return; // They stand there as TeX.
+  if (typeof katex === "undefined") return; // Formulas remain TeX source.
   for (const element of document.querySelectorAll(".formula")) {
     katex.render(element.textContent, element, {
       displayMode: element.tagName === "DIV",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours of what is drawn: materials, antennas, and for RSSI and margins one scale of even steps in
-// lightness, so that also those who don't see red and green apart see their order.
+// Colours of materials and antennas, and for RSSI and margins one perceptually uniform colour map,
+// whose order is also visible with red-green colour blindness.
 
 const MATERIALS = {
   metal: "#7d8b99",
@@ -20,7 +20,7 @@ const MATERIALS = {
 };
 const ANTENNAS =
   ["#2f7ed8", "#d9662b", "#1c9c6b", "#a855c9", "#c2a413", "#d64583", "#16a3b8", "#8a6d4b"];
-// viridis (S. van der Walt and N. Smith, 2015), a tenth apart, from its second tenth on.
+// viridis (S. van der Walt and N. Smith, 2015) from 0.2 to 1 in steps of 0.1.
 const VIRIDIS = [
   [65, 68, 135], [53, 95, 141], [42, 120, 142], [33, 145, 140], [34, 168, 132], [68, 191, 112],
   [122, 209, 81], [189, 223, 38], [253, 231, 37]
@@ -33,7 +33,7 @@ function hue(name) {
   return (hash >>> 0) % 360;
 }
 
-// Of a solid: by its material, else by its model's name.
+// Colour of a solid: that of a known material, else a hue from the name of its material or model.
 export function solidColor({name, material}) {
   return MATERIALS[material] ?? `hsl(${hue(material || name.split("::")[0])}, 22%, 62%)`;
 }
@@ -61,7 +61,7 @@ export function rssiCss(u) {
     c[3].toFixed(2)})`;
 }
 
-// Steps of the coverage's legend: margin [dB] from which on, its colour as [r, g, b, a] in bytes.
+// Steps of the coverage legend: lower bound of the margin [dB], [r, g, b, a] in bytes, text.
 export const MARGINS = [
   [-Infinity, [72, 36, 117, 150], "not read"],
   [-3, [59, 81, 139, 190], "−3 to 0 dB: just not read"],
@@ -75,12 +75,12 @@ export function marginColor(margin) {
   return MARGINS[0][1];
 }
 
-// Which of the bands between rising edges a value is in.
+// Index of the band between ascending edges that contains a value.
 export function bandOf(edges, value) {
   let band = 0;
   while (band < edges.length && value >= edges[band]) ++band;
   return band;
 }
 
-// Of a band that has no colour of its own, as what hardly ever is.
+// Colour of a band; grey for one without its own colour, such as that of tags hardly ever read.
 export const bandColor = (color) => color || "#8a949e";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Elements in one call. Text goes in as text only: what a server says is never taken for HTML.
+// Creates an element in one call. Text is set as text only: data from a server is never parsed as
+// HTML.
 
 export function h(name, properties = {}, ...children) {
   const element = document.createElement(name);

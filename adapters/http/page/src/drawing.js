@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The world in three dimensions: all layers on one stage.
+// The 3D view of the world: all layers on one stage.
 
 import {Box3, Vector3} from "three";
 
@@ -17,7 +17,7 @@ import {Picking} from "./picking.js";
 import {Stage} from "./stage.js";
 
 export class Drawing {
-  // Throws where there is no WebGL.
+  // Throws if WebGL is not available.
   constructor(canvas, world, scale) {
     this.world = world;
     this.stage = new Stage(canvas);
@@ -33,7 +33,7 @@ export class Drawing {
     this.plan = new PlanLayer(this.stage);
     this.picking = new Picking(this.stage, world, this.solids);
     this.stage.layers.push(this.solids, this.tags, this.flashes);
-    this.filled = new Box3();  // What stands in the world, without the floor round it.
+    this.filled = new Box3();  // Bounds of what is in the world, without the floor around it.
     this.fitted = "";
   }
 
@@ -51,14 +51,14 @@ export class Drawing {
       layer.update(changed);
   }
 
-  // A layout of a plan in place of the tags, or beside them; with null the tags alone.
+  // Shows a layout of a plan instead of the tags or together with them; null shows the tags alone.
   showPlan(plan, layout, withTags) {
     this.plan.show(plan, layout);
     for (const layer of [this.tags, this.flashes]) layer.setVisible(layout === null || withTags);
     this.stage.invalidate();
   }
 
-  // Forgets cells beyond what stands in the world.
+  // Clears the cells of a coverage that are outside the bounds of the world.
   clip({x0, y0, cell, columns, margin_db: margins}) {
     const {min, max} = this.filled;
     for (let i = 0; i < margins.length; ++i) {
@@ -68,7 +68,7 @@ export class Drawing {
     }
   }
 
-  // Fits the view to a world when it is first seen, not when a pallet is put into it.
+  // Fits the view to a world when it is first shown, not when an obstacle is added later.
   #scene() {
     const {world, stage} = this;
     if (!world.scene.name && !world.tags.length) return;

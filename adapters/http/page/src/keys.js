@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keyboard: time, views and search everywhere, turning and zooming while the drawing has the
-// focus.
+// Keyboard shortcuts: time, views and search everywhere, rotating and zooming while the canvas has
+// the focus.
 
 const TURN_RAD = 0.12;
 const ZOOM = 1.12;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A server that goes on: fetches the world, follows its frames, sends commands, comes back by
-// itself.
+// Client of a live server: fetches the world, follows its frames, sends commands and reconnects
+// automatically.
 
 const FIRST_WAIT_MS = 500;
 const LONGEST_WAIT_MS = 5000;
@@ -12,7 +12,7 @@ async function json(response) {
   try {
     value = JSON.parse(text);
   } catch {
-    // Not ours: the status says what there is to say.
+    // Not an answer of our API: reported below.
   }
   if (!response.ok)
     throw new Error(value?.error ?? `the server answers ${response.status} ${response.statusText}`);
@@ -23,7 +23,7 @@ async function json(response) {
 export const get = async (path) => json(await fetch(`api/${path}`, {cache: "no-store"}));
 
 export class Live {
-  // say(state, word): "connecting", "connected" or "away", for the status line.
+  // say(state, word): sets the status line; state is "connecting", "connected" or "away".
   constructor(world, say) {
     this.world = world;
     this.say = say;
@@ -31,7 +31,7 @@ export class Live {
     this.token = new URLSearchParams(location.hash.slice(1)).get("token") ?? "";
   }
 
-  // Follows first and fetches then, so that no change falls between the two.
+  // Opens the socket first and then fetches the world; earlier frames are ignored.
   start() {
     this.say("connecting", "connecting …");
     const address = new URL("api/live", location.href);
@@ -85,7 +85,7 @@ export class Live {
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT_MS);
   }
 
-  // A world that stands still needs no drawing.
+  // A world that does not change is not redrawn.
   #isNews(frame) {
     const {world} = this;
     return (
@@ -142,7 +142,7 @@ export class Live {
       this.world.setTags(tags.tags);
       this.world.touch("reads", "selection");
     } catch {
-      // The socket's end will say that the server is away.
+      // The close event of the socket will report that the server is away.
     }
   }
 
@@ -154,7 +154,7 @@ export class Live {
       {method, headers, body: body === undefined ? undefined : JSON.stringify(body)}));
     if (status?.time !== undefined) this.#status(status);
     this.world.touch("commanded");
-    // A step goes on for a while; nothing else says when it has ended.
+    // A step takes a while, and nothing else reports its end.
     if (path === "step")
       setTimeout(() => get("status").then((one) => this.#status(one), () => {}), SETTLED_MS);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One page for a live world, a recorded run that a server holds, and one that lies in the page
-// itself.
+// One page for a live world, a recorded run served by a server, and a recorded run embedded in the
+// page itself.
 
 import {setText} from "./dom.js";
 import {Drawing} from "./drawing.js";
@@ -18,7 +18,7 @@ import {PlanPanel} from "./ui/plan.js";
 import {TimeBar} from "./ui/time.js";
 import {World} from "./world.js";
 
-const CLICK_PX = 5;  // A press that moves further turns the view.
+const CLICK_PX = 5;  // A press that moves further rotates the view.
 const PANEL_MS = 200;
 const AGAIN_MS = 2000;
 const NO_WEBGL =
@@ -90,7 +90,7 @@ class View {
     }
   }
 
-  // All that changed since the last frame, once.
+  // Updates everything that changed since the last frame.
   #frame(elapsed) {
     const {world} = this;
     if (this.recording && !world.paused) this.recording.advance(elapsed);
@@ -124,7 +124,7 @@ class View {
       document.title = name ? `${name} – Tagfield` : "Tagfield";
   }
 
-  // Colours mean the same for a whole recorded run; a live one's range grows with what is read.
+  // The colour range of a recorded run is fixed; that of a live world grows with the RSSI read.
   #widen() {
     if (this.recording) return;
     let grew = false;
@@ -136,7 +136,7 @@ class View {
   select(kind, index) {
     this.at.panels.removeAttribute("data-closed");
     this.world.select(kind, index);
-    // On a phone the panel takes the list's place, and the focus must not get lost with the list.
+    // On a phone the panel replaces the list, and the focus must not be lost with the list.
     const inList = this.at.lists.contains(this.at.root.activeElement);
     requestAnimationFrame(() => {
       if (inList && !this.at.lists.offsetParent) this.at.detail.querySelector("h2")?.focus();
@@ -196,7 +196,7 @@ class View {
     at.canvas.addEventListener("pointerleave", () => (at.label.hidden = true));
   }
 
-  // The name of what is under the mouse; a finger covers it anyway.
+  // Shows the name of what is under the mouse, but not under a finger, which would cover it.
   #hover(event) {
     const {label} = this.at;
     const at = [event.offsetX, event.offsetY];
@@ -228,7 +228,8 @@ class View {
       this.deselect();
   }
 
-  // The next click's place in the world, or null where there is none or Escape was pressed.
+  // Resolves to the position of the next click in the world, or to null if the click hits nothing
+  // or Escape is pressed.
   pickPlace(word) {
     if (!this.stage) {
       this.say("refused", "A position can be picked only where the world is drawn");
@@ -259,7 +260,7 @@ class View {
     this.world.touch("time");
   }
 
-  // Where antennas were planned, as a tab and a layer of its own.
+  // Shows an antenna plan as a tab and a layer of its own.
   showPlan(plan) {
     const panel = new PlanPanel(
       plan, (layout, withTags) => this.drawing?.showPlan(plan, layout, withTags));
@@ -279,7 +280,8 @@ class View {
     live.start();
   }
 
-  // Asks the server which of both it is, for as long as it takes.
+  // Shows the embedded run, if there is one. Otherwise asks the server whether it is live or
+  // recorded, and retries until it answers.
   async start() {
     const embedded = document.getElementById("tagfield-run");
     if (embedded) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies under a pixel: a tag or antenna near it, or the place of the world that is seen there.
+// Picks what is under a pixel: the nearest tag or antenna, or the position in the world seen there.
 
 import {Matrix4, Plane, Raycaster, Vector2, Vector3} from "three";
 
@@ -13,7 +13,7 @@ export class Picking {
       {stage, world, solids, ray: new Raycaster(), pixel: new Vector2(), clip: new Matrix4()});
   }
 
-  // {kind, index} of the nearest within reach of the pixel [CSS px of the canvas], or null.
+  // {kind, index} of the nearest one within reach of the pixel [CSS px of the canvas], or null.
   nearest(x, y, touch) {
     const {tags, antennas, position} = this.world;
     const {camera, canvas} = this.stage;
@@ -43,7 +43,7 @@ export class Picking {
     return best.kind ? best : null;
   }
 
-  // Place of frame W seen at the pixel: on a solid, else on the floor; null above the horizon.
+  // Position [m, frame W] seen at the pixel: on a solid, else on the floor; null above the horizon.
   place(x, y) {
     const {clientWidth: width, clientHeight: height} = this.stage.canvas.parentElement;
     this.pixel.set((2 * x) / width - 1, 1 - (2 * y) / height);

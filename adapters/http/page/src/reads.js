@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads in the order in which they came, in columns. A live log drops its older half when it is
-// full; a recorded one holds the whole run and shows it up to `end`.
+// Reads in the order of arrival, in columns. A live log drops its older half when it is full; a
+// recorded one contains the complete run and shows it up to `end`.
 
 const FIELDS = {
   t: Float64Array,
@@ -18,7 +18,7 @@ export class ReadLog {
     for (const [name, Type] of Object.entries(FIELDS)) this[name] = new Type(capacity);
   }
 
-  // Columns of a recorded run; nothing is shown until `end` is moved.
+  // From the columns of a recorded run; nothing is shown until `end` is moved.
   static of(columns) {
     const log = new ReadLog(columns.t.length);
     for (const name of ["t", "tag", "antenna", "rssi", "phase"]) log[name].set(columns[name]);
@@ -43,7 +43,7 @@ export class ReadLog {
     this.end -= half;
   }
 
-  // First read later than `time` among the first `end`.
+  // Index of the first read later than `time` among the first `end`; `end` if there is none.
   after(time, end = this.end) {
     let low = 0;
     let high = end;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recorded run: any of its moments, forwards or backwards.
+// Playback of a recorded run: seeks to any time, forwards or backwards.
 
 import {ReadLog} from "./reads.js";
 
@@ -16,7 +16,8 @@ function indexAt(times, t) {
   return low;
 }
 
-// Between samples: positions linearly, quaternions linearly and normalized (samples are close).
+// Interpolates between samples: positions linearly, quaternions linearly and normalized (nlerp), as
+// samples are close.
 function poseAt(samples, poses, t) {
   const i = indexAt(samples, t);
   const j = Math.min(i + 1, samples.length - 1);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The range of RSSI that the colours span: −80 to −40 dBm, widened in steps of 10 dB by what is
-// read.
+// RSSI range of the colour map: −80 to −40 dBm, widened in steps of 10 dB to the RSSI of live
+// reads, or fitted to a recorded run.
 
 const STEP_DB = 10;
-const LEAST_DBM = -90;  // No reader hears less; one such read must not squeeze all others together.
+const LEAST_DBM = -90;  // Below any reader's sensitivity: one such read must not stretch the range.
 const MOST_DBM = 0;
 
 export class Scale {
@@ -12,7 +12,7 @@ export class Scale {
     this.high = -40;
   }
 
-  // A run's own range, without its rarest hundredth at either end.
+  // Fits the range to a run: from its 1st to its 99th percentile.
   fit(rssi) {
     if (!rssi.length) return;
     const sorted = Float32Array.from(rssi).sort();
@@ -21,7 +21,7 @@ export class Scale {
     this.high = Math.max(STEP_DB * Math.ceil(at(0.99) / STEP_DB), this.low + 2 * STEP_DB);
   }
 
-  // True where the range grew.
+  // Widens the range to include a value; returns true if it grew.
   widen(rssi) {
     const [low, high] = [this.low, this.high];
     if (rssi < low) this.low = Math.max(STEP_DB * Math.floor(rssi / STEP_DB), LEAST_DBM);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera, light and the loop: a frame is drawn only when something asked for one.
+// Camera, lights and the render loop: a frame is drawn only when one was requested.
 
 import {
   AmbientLight, Box3, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3,
@@ -22,7 +22,7 @@ function light(scene) {
 }
 
 export class Stage {
-  // Throws where there is no WebGL.
+  // Throws if WebGL is not available.
   constructor(canvas) {
     this.canvas = canvas;
     this.renderer =
@@ -39,12 +39,12 @@ export class Stage {
     this.controls.addEventListener("change", () => this.invalidate());
     this.controls.addEventListener("start", () => (this.view = ""));
     this.bounds = new Box3(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
-    this.layers = [];  // {update(changed), frame?(now) → true while it goes on}
+    this.layers = [];  // {frame?(now [s]) → true while it needs further frames}
     this.before = [];  // Called before each frame with the time since the last one [s].
     this.insets = {left: 0, right: 0, top: 0, bottom: 0};
     this.follow = null;
     this.view =
-      "";  // The named view for as long as nobody has turned it; it is fitted anew to a new size.
+      "";  // The named view until the user moves the camera; it is refitted to a new size.
     this.asked = 0;
     this.frames = 0;
     this.last = 0;
@@ -65,7 +65,7 @@ export class Stage {
     this.invalidate();
   }
 
-  // Panels lie over the canvas: what is looked at stands in the middle of what they leave free.
+  // Panels cover parts of the canvas: the view is centred in the area that they leave free.
   setInsets(insets) {
     this.insets = insets;
     this.resize();
@@ -114,7 +114,7 @@ export class Stage {
     this.resize();
   }
 
-  // Near enough that the bounds fill what the panels leave free, and in its middle.
+  // Moves the camera so that the bounds fill the area that the panels leave free, centred in it.
   #fit() {
     const size = this.bounds.getSize(new Vector3()).length();
     const target = this.bounds.getCenter(new Vector3());
@@ -141,8 +141,8 @@ export class Stage {
     this.controls.update();
   }
 
-  // Tangents of the angles between which the corners of the bounds are seen: left, right, low,
-  // high.
+  // Tangents of the angles at which the bounds are seen from the camera: left, right, bottom,
+  // top.
   #seen(target, back, right, up, distance) {
     const all = [Infinity, -Infinity, Infinity, -Infinity];
     const p = new Vector3();
@@ -172,7 +172,8 @@ export class Stage {
     this.invalidate();
   }
 
-  // By keyboard: radians about the vertical and towards the top, factor of the distance.
+  // From the keyboard: change of azimuth and of the polar angle from the vertical [rad], and a
+  // factor on the distance.
   orbit(azimuth, polar, zoom) {
     this.view = "";
     const {camera, controls} = this;
@@ -188,7 +189,7 @@ export class Stage {
     this.invalidate();
   }
 
-  // Pixel of the canvas [CSS px] of a point of frame W, or null behind the camera.
+  // Canvas pixel [CSS px] of a point in frame W, or null if it is behind the camera.
   project(x, y, z) {
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
     this.camera.updateMatrixWorld();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light and dark: as the system has it, until the switch says otherwise.
+// Light and dark theme: that of the system until the user switches it.
 
 const COLORS = {
   light: {
@@ -31,12 +31,12 @@ function remembered() {
   try {
     return localStorage.getItem(KEY);
   } catch {
-    return null;  // Not allowed here; then the system's choice holds.
+    return null;  // Storage is not allowed here: the system's theme applies.
   }
 }
 
 export class Theme {
-  // apply(colors) is called now and at each change.
+  // apply(colors) is called immediately and at each change.
   constructor(at, apply) {
     this.at = at;
     this.apply = apply;
@@ -48,7 +48,7 @@ export class Theme {
       try {
         localStorage.setItem(KEY, this.chosen);
       } catch {
-        // It holds until the page is closed.
+        // Not stored: the choice lasts until the page is closed.
       }
       this.set();
     });

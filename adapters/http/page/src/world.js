@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of the world at one moment, wherever it came from: a server that goes on, or a
-// recorded run. Tags and antennas keep their index for as long as the page is open; one that is
-// gone is marked as absent, so that reads of it still point to something.
+// The state of the world at one moment, from either source: a live server or a recorded run. Tags
+// and antennas keep their index until reset(); a removed one is marked as absent, so that the
+// indices in its reads stay valid.
 
 import {ReadLog} from "./reads.js";
 
 const LIVE_READS = 1 << 18;
-const TRAIL = 2000;         // Places of a moving antenna that are kept [1].
-const RECENT_S = 2;         // A tag counts as read for this long [simulated s] …
-const RECENT_REAL_S = 0.5;  // … or for this long on the wall's clock, whichever is longer.
+const TRAIL = 2000;         // Positions of a moving antenna that are kept [1].
+const RECENT_S = 2;         // A tag counts as recently read for this long [simulated s] …
+const RECENT_REAL_S = 0.5;  // … or for this long in wall-clock time, whichever is longer.
 
 function grown(array, length) {
   if (array.length >= length) return array;
@@ -28,8 +28,8 @@ export class World {
     this.paused = false;
     this.dropped = 0;
     this.selection = null;  // {kind: "tag" | "antenna", index}
-    this.onlyAntenna = -1;  // Reads of this antenna alone colour the tags; -1: of all.
-    this.newReads = [];     // Tag and antenna in turn, of reads not flashed yet.
+    this.onlyAntenna = -1;  // Only reads of this antenna colour the tags; -1: those of all.
+    this.newReads = [];     // Indices of tag and antenna, alternating, of reads not flashed yet.
     this.changed = new Set();
     this.taken = new Set();
     this.listeners = [];
@@ -39,30 +39,30 @@ export class World {
   #clear() {
     this.tags = [];  // {id, moves, present}
     this.tagIndex = new Map();
-    this.position = new Float32Array(0);  // 3 a tag [m, frame W]
+    this.position = new Float32Array(0);  // 3 per tag [m, frame W]
     this.strength =
-      new Float32Array(0);  // Strongest RSSI of late [dBm], NaN where not read of late
-    this.lastRssi = new Float32Array(0);  // Last RSSI ever [dBm], NaN where never read
-    this.tagRate = new Float32Array(0);   // Reads a second
-    this.antennas = [];  // As the server gives them, and pose, present, trail, rate, inSight
+      new Float32Array(0);  // Strongest recent RSSI [dBm], NaN if not read recently
+    this.lastRssi = new Float32Array(0);  // Latest RSSI [dBm], NaN if never read
+    this.tagRate = new Float32Array(0);   // Recent reads per second
+    this.antennas = [];  // As sent by the server, plus present, trail, rate and inSight
     this.antennaIndex = new Map();
     this.robots = new Map();     // name → [x, y, z, qx, qy, qz, qw]
     this.estimates = new Map();  // tag's index → {position, covariance}
-    this.scans = [];  // One a robot.
+    this.scans = [];  // One per robot.
     this.log = new ReadLog(this.live ? LIVE_READS : 0);
-    this.counted = 0;  // Reads of the log that are in lastRssi.
+    this.counted = 0;  // Number of reads of the log that lastRssi covers.
     this.newReads.length = 0;
     this.seen = new Int32Array(0);
     this.survey_ = 0;
   }
 
-  // Layers and panels are told what changed, at most once a frame.
+  // Marks what changed; layers and panels are updated at most once per frame.
   touch(...what) {
     for (const one of what) this.changed.add(one);
     for (const listener of this.listeners) listener();
   }
 
-  // What changed since the last call.
+  // Returns what changed since the last call.
   takeChanges() {
     [this.changed, this.taken] = [this.taken, this.changed];
     this.changed.clear();
@@ -91,7 +91,7 @@ export class World {
     this.touch("selection", "reads");
   }
 
-  // What was selected before everything was fetched anew, if it is still there.
+  // Restores the selection from before reset(), if that tag or antenna still exists.
   reselect() {
     if (!this.wanted) return;
     const {kind, name} = this.wanted;
@@ -175,7 +175,7 @@ export class World {
     if (index !== undefined && x !== null) {
       this.estimates.set(index, {position: [x, y, z], covariance});
     } else if (index !== undefined) {
-      this.estimates.delete(index);  // Where it is can't be told any more.
+      this.estimates.delete(index);  // It can no longer be located.
     }
     this.changed.add("estimates");
   }
@@ -191,17 +191,17 @@ export class World {
     this.changed.add("reads");
   }
 
-  // A read that is to be seen as a flash; beyond a thousand a frame nobody sees one more.
+  // Queues a read to be shown as a flash; at most a thousand per frame, as nobody would see more.
   flash(tag, antenna) {
     if (this.newReads.length < 2000) this.newReads.push(tag, antenna);
   }
 
-  // How far back reads count as of late [simulated s].
+  // How long a read counts as recent [simulated s].
   recent() {
     return Math.max(RECENT_S, this.paused ? 0 : RECENT_REAL_S * Math.max(this.pace || 0, 0));
   }
 
-  // Strength and rates of the last moments, from the log.
+  // Recent RSSI and read rates, from the log.
   survey() {
     this.#remember();
     const {log, strength, tagRate, seen} = this;
@@ -227,7 +227,7 @@ export class World {
     }
   }
 
-  // The antenna that reads a tag strongest of late, or null.
+  // The antenna of the strongest recent read of a tag, or null.
   strongestAntenna(tag) {
     const {log} = this;
     let best = -1;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A server that speaks the page's contract without the simulator: the reads of a real run, going
-// round and round, and as many synthetic tags as asked for. For the page's own tests and for
-// working on it.
+// A mock server with the API that the page uses, without the simulator: it replays the reads of a
+// real run in a loop and adds N synthetic tags. For the page's own tests and for its development.
 //
 //   node mock.mjs PAGE.html RUN_FOLDER WORLD.sdf [--tags N] [--port P] [--recorded]
 //                 [--explain TAGFIELD SCENARIO] [--modules DIR]
 //
-// The first line printed is "http: http://127.0.0.1:PORT". The link and the coverage come from the
-// real program where --explain names it; else explain answers 409.
+// The first line printed is "http: http://127.0.0.1:PORT". Link and coverage are computed by the
+// real program given with --explain; without it these requests are answered with 409.
 
 import {execFile} from "node:child_process";
 import {mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
@@ -21,7 +20,7 @@ import {promisify} from "node:util";
 import {poseOf, readRun} from "./run.mjs";
 
 const FRAME_S = 0.05;
-const SYNTHETIC_READS_S = 1000;  // Of all synthetic tags together, on the wall's clock.
+const SYNTHETIC_READS_S = 1000;  // Of all synthetic tags together, per second of wall-clock time.
 const call = promisify(execFile);
 
 function parse(words) {
@@ -90,8 +89,8 @@ function poseAt(track) {
 const latestPoses = (tracks) =>
   Object.entries(tracks).map(([name, track]) => [name, ...poseAt(track)]);
 
-// As a real server sums up: the last read of a tag by an antenna since the last frame, and how
-// many.
+// Aggregates reads like a real server: the last read of each tag by each antenna since the last
+// frame, and their number.
 function readsBetween(from, to) {
   const last = new Map();
   const add = (tag, antenna, rssi, phase, t) => {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run's folder and its world's SDF as GET /api/run gives them: real reads for the mock server.
+// Converts a run's folder and its world's SDF to the answer of GET /api/run: real reads for the
+// mock server.
 
 import {existsSync, readFileSync} from "node:fs";
 import path from "node:path";
@@ -26,8 +27,8 @@ export function poseOf([x, y, z, roll = 0, pitch = 0, yaw = 0]) {
   ];
 }
 
-// Collisions of an SDF whose models and links are turned about z alone, as this project's own
-// worlds are.
+// Collisions of an SDF whose models and links are rotated about z only, as in this project's own
+// worlds.
 export function solidsOf(sdf, materials) {
   const text =
     readFileSync(sdf, "utf8").replace(/<!--[^]*?-->/g, "").replace(/<visual[^]*?<\/visual>/g, "");
@@ -88,7 +89,7 @@ function tracks(rows, key, fields, column, every) {
   return all;
 }
 
-// A panel of 6 dBi: its gain falls as cos² of the angle from boresight, −20 dB behind.
+// A 6 dBi panel: its gain falls as cos² of the angle from boresight, and is −20 dB behind.
 export function panelBeam() {
   const theta = Array.from({length: 37}, (_, i) => (i * Math.PI) / 36);
   const phi = Array.from({length: 24}, (_, i) => (i * Math.PI) / 12);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Antennas: a plate that looks along its boresight, the half-power part of its beam or the paper's
-// sphere of range, and the trail of one that moves.
+// Antennas: a plate that faces along its boresight, the half-power part of its beam or the sphere
+// of the read range in the paper's model, and the trail of a moving one.
 
 import {
   AdditiveBlending, BoxGeometry, BufferAttribute, BufferGeometry, Color, ConeGeometry, DoubleSide,
@@ -11,7 +11,7 @@ import {
 import {antennaColor} from "../colors.js";
 
 const HALF_POWER_DB = -3;
-const BEAM_LENGTH_M = 3;  // At the peak: only the shape means something, ranges depend on the tag.
+const BEAM_LENGTH_M = 3;  // At the peak. Only the shape has a meaning: ranges depend on the tag.
 const AZIMUTHS = 48;
 const POLARS = 20;
 
@@ -51,7 +51,7 @@ function gainAt(beam, theta, phi) {
   return (1 - u) * row(i) + u * row(i + 1);
 }
 
-// Where the gain has fallen to half, going outwards from boresight [rad].
+// Angle from boresight at which the gain has fallen to half [rad].
 function halfPowerAngle(beam, phi) {
   for (let theta = 0; theta < Math.PI; theta += 0.005) {
     if (gainAt(beam, theta, phi) < HALF_POWER_DB) return theta;
@@ -59,8 +59,7 @@ function halfPowerAngle(beam, phi) {
   return Math.PI;
 }
 
-// r = L·sqrt(gain) in all directions of at least half the peak's power; closed by rays to the
-// antenna.
+// r = L·sqrt(gain) in all directions up to the half-power angle, closed by rays to the antenna.
 function beamGeometry(beam) {
   const points = [0, 0, 0];
   const indices = [];
@@ -192,7 +191,7 @@ export class Antennas {
     });
   }
 
-  // The buffer is made anew only when it is too small.
+  // The buffer is reallocated only when it is too small.
   #trail(item, trail) {
     if (trail.length === item.drawn && this.world.live === false) return;
     const {geometry} = item.trail;
@@ -208,7 +207,7 @@ export class Antennas {
     item.drawn = trail.length;
   }
 
-  // With one selected, the others' beams step back.
+  // With one selected, the beams of the others are hidden.
   #light() {
     const {selection} = this.world;
     const chosen = selection?.kind === "antenna" ? selection.index : -1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an antenna would read a tag, as a coloured layer at one height.
+// Coverage of an antenna: where it would read a tag, as a coloured layer at one height.
 
 import {
   DataTexture, Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where tags were located: a cross, the error ellipse of 95 %, and a line to the true place.
+// Estimated tag positions: a cross, the 95 % error ellipse, and a line to the true position.
 
 import {BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments} from "three";
 
-const CHI_95 = Math.sqrt(5.991);  // χ² of two degrees of freedom.
+const CHI_95 = Math.sqrt(5.991);  // χ² with two degrees of freedom.
 const SEGMENTS = 40;
 const CROSS_M = 0.06;
 
-// Half-axes and heading of the ellipse of [cxx, cxy, cyy] [m²].
+// Semi-axes [m] and heading [rad] of the 95 % ellipse of the covariance [cxx, cxy, cyy] [m²].
 export function ellipse([cxx, cxy, cyy]) {
   const mean = (cxx + cyy) / 2;
   const root = Math.hypot((cxx - cyy) / 2, cxy);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads as lines between antenna and tag that fade; the fading is the shader's work.
+// Reads as fading lines between antenna and tag; the shader does the fading.
 
 import {
   BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, LineSegments, ShaderMaterial
@@ -8,7 +8,7 @@ import {
 import {antennaColor} from "../colors.js";
 
 const LINES = 2000;
-const A_FRAME = 120;  // New lines a frame at most; of more, an even choice.
+const A_FRAME = 120;  // Maximum of new lines per frame; of more reads, an even selection.
 const FADE_S = 0.45;
 
 const VERTEX = `

@@ -6,10 +6,10 @@ import {
   LineSegments, Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace, Vector3
 } from "three";
 
-// Free, occupied, neither: red, green, blue, opacity.
+// RGBA of free, occupied and unknown cells.
 const MAP_COLORS = [[255, 255, 255, 0], [30, 41, 59, 220], [100, 116, 139, 70]];
 
-// Lines each `step` metres, but for those at multiples of `skip`.
+// Lines every `step` metres, except at multiples of `skip`.
 function gridLines({min, max}, step, skip, height) {
   const points = [];
   for (let x = Math.ceil(min.x / step) * step; x <= max.x; x += step) {
@@ -35,7 +35,7 @@ export class Ground {
     if (this.scene) this.set(this.scene, this.bounds);
   }
 
-  // Draws all; returns how far the floor goes: a metre or two beyond what stands on it.
+  // Draws everything; returns the extent of the floor: one to two metres beyond the bounds.
   set(scene, bounds) {
     this.scene = scene;
     this.bounds = bounds;
@@ -72,7 +72,7 @@ export class Ground {
       new LineBasicMaterial({color: new Color(this.theme.grid), transparent: true, opacity}));
   }
 
-  // Free cells stay clear, occupied ones are dark, the rest is a haze.
+  // Free cells are transparent, occupied ones dark, unknown ones hazy.
   #map({resolution, origin, width, height, runs}) {
     const cells = new Uint8Array(4 * width * height);
     let at = 0;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paths of one link, as `explain` gives them: the direct way, reflections, diffraction.
+// The propagation paths of one link, from `explain`: direct, reflected and diffracted.
 
 import {
   BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineDashedMaterial
 } from "three";
 
 const MOST = 12;
-const FAINTEST_DB = -40;  // A path this far below the direct way is drawn faintest.
+const FAINTEST_DB = -40;  // A path this far below the direct path is drawn faintest.
 
 function lengthOf(points) {
   let length = 0;
@@ -16,7 +16,7 @@ function lengthOf(points) {
   return length;
 }
 
-// Points of a path [m, frame W]. The edge of a diffracted one stands where that makes the way
+// Points of a path [m, frame W]. The diffracting edge is inserted where it makes the path
 // shortest.
 export function pathPoints(explanation, path) {
   const points = [

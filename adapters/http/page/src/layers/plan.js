@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan of antennas: cubes where tags can be, coloured by how many have there what is aimed at, and
-// frames where its antennas would hang, with a line to where they look.
+// An antenna plan: cubes at the possible tag positions, coloured by the share of tags there that
+// are read (or meet the plan's other goal), and frames at the planned antennas with a line along
+// boresight.
 
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, Color, InstancedMesh, LineBasicMaterial,
@@ -10,10 +11,10 @@ import {
 import {bandColor, bandOf} from "../colors.js";
 
 const CUBE_M = 0.14;
-const PLATE_M = 0.16;  // Half of a side.
+const PLATE_M = 0.16;  // Half the side of a frame.
 const LOOK_M = 0.9;
 
-// A square across the line of sight, and a line along it.
+// A square perpendicular to boresight, and a line along it.
 function pushAntenna(points, {position, boresight}) {
   const at = new Vector3(...position);
   const along = new Vector3(...boresight).normalize();
@@ -42,7 +43,7 @@ export class PlanLayer {
     this.lines.material.color.set(ink);
   }
 
-  // The layout of that number, or nothing where that is null.
+  // Shows the layout with this index; null hides the plan.
   show(plan, layout) {
     this.cubes ??= this.#cubesOf(plan);
     const visible = layout !== null;

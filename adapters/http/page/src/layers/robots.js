@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Robots: a simple body half a metre wide with its heading, and what its laser sees.
+// Robots: a simple body half a metre long that shows the heading, and the points of its laser scan.
 
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, DynamicDrawUsage,
@@ -33,7 +33,7 @@ function robot() {
   return group;
 }
 
-// A thin mast from the robot up to each antenna that it carries.
+// A thin mast from the robot up to an antenna mounted on it.
 function mast() {
   const one = new Mesh(
     new CylinderGeometry(0.015, 0.015, 1, 8).rotateX(Math.PI / 2).translate(0, 0, 0.5),
@@ -114,7 +114,7 @@ export class Robots {
     this.scan.geometry.setDrawRange(0, drawn);
   }
 
-  // Where the scan's beams end, from the point of this number on; the number after the last.
+  // Writes the end points of the scan from index `drawn` on; returns the index after the last one.
   #ends(scan, points, drawn) {
     const [x, y, z, ...q] = scan.origin;
     this.laser.compose(
@@ -129,7 +129,7 @@ export class Robots {
     return drawn;
   }
 
-  // Of the first robot, else of the first antenna that moves.
+  // Position of the first robot, else of the first moving antenna; null if there is neither.
   place() {
     const [pose] = this.world.robots.values();
     const moving =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The world's solids: boxes, cylinders and spheres instanced by shape, meshes as they are. Walls
-// and roofs between camera and hall turn into glass, so that one can look in from outside.
+// and roofs between camera and hall become transparent, so that the inside can be seen.
 
 import {
   Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide,
@@ -10,9 +10,9 @@ import {
 
 import {isTransparent, solidColor} from "../colors.js";
 
-const FAR = 60;              // A plane or slab wider than this says nothing of the hall's size [m].
-const HULL_SHARE = 0.8;      // A mesh wider than this share of the world both ways is its hull.
-const MOST_EDGES = 5000;     // Triangles of a mesh whose edges are drawn [1].
+const FAR = 60;              // A larger solid does not count towards the bounds of the world [m].
+const HULL_SHARE = 0.8;      // A mesh larger than this share of the world in x and y is its hull.
+const MOST_EDGES = 5000;     // Edges are drawn of meshes with fewer triangles than this [1].
 const WALL_SHARE = 0.3;      // A wall is longer than this share of the world …
 const WALL_THICKNESS = 0.6;  // … and thinner than this [m].
 
@@ -43,7 +43,7 @@ function meshGeometry({vertices, triangles}) {
   return geometry;
 }
 
-// Where an obstacle is at a time, [x, y]; null where it is not there then.
+// Position [x, y] of an obstacle at a time; null if it is absent then.
 export function obstaclePlace({position, motion, appears, disappears}, time) {
   if (time < (appears ?? -Infinity) || time >= (disappears ?? Infinity)) return null;
   if (!motion) return position;
@@ -58,8 +58,8 @@ export function obstaclePlace({position, motion, appears, disappears}, time) {
 const isThereForGood = ({motion, appears, disappears}) =>
   !motion && appears === undefined && disappears === undefined;
 
-// Obstacles stand on the floor; the server gives them apart from the solids, since they come and
-// go.
+// Obstacles stand on the floor; the server sends them separately from the solids, as they appear
+// and disappear.
 function obstacleSolid(obstacle) {
   const [x, y] = obstacle.position;
   const height = obstacle.height;
@@ -91,7 +91,7 @@ const isGround = (box) => {
   return size.z < 0.6 && box.max.z < 0.05 && Math.min(size.x, size.y) > 4;
 };
 
-// "wall" and "roof" hide what is behind them.
+// Whether a solid is a wall or roof, which hides what is behind it.
 function hides(box, bounds) {
   const size = box.getSize(new Vector3());
   const whole = bounds.getSize(new Vector3());
@@ -102,7 +102,7 @@ function hides(box, bounds) {
     Math.max(size.x, size.y) > WALL_SHARE * Math.max(whole.x, whole.y));
 }
 
-// A mesh that is the whole hall: its walls are one solid.
+// Whether a solid is a mesh of the complete hall, with all walls in one.
 function isHull(solid, box, bounds) {
   if (solid.mesh === undefined) return false;
   const size = box.getSize(new Vector3());
@@ -110,7 +110,7 @@ function isHull(solid, box, bounds) {
   return size.x > HULL_SHARE * whole.x && size.y > HULL_SHARE * whole.y && size.z > 1.2;
 }
 
-// Leaves one pixel in 17 of faces that have the camera on their outer side, of roofs too.
+// Draws only one pixel in 17 of faces seen from their outer side, including roofs but not floors.
 function openTowardsCamera(material, center) {
   material.onBeforeCompile = (shader) => {
     shader.uniforms.uCenter = {value: center};
@@ -137,7 +137,7 @@ export class Solids {
     this.group = new Group();
     stage.scene.add(this.group);
     this.screens = [];
-    this.passing = [];  // Obstacles that move, come or go, each with its mesh.
+    this.passing = [];  // Obstacles that move, appear or disappear, each with its mesh.
     this.inside = new Vector3();
     this.edgeColor = new Color("#000000");
   }
@@ -159,7 +159,7 @@ export class Solids {
     this.screens = [];
   }
 
-  // Draws all; returns what they fill (without endless floors), or null.
+  // Draws all solids; returns their bounds (without floors and very large ones), or null.
   set(scene) {
     this.#clear();
     const solids =
@@ -200,7 +200,7 @@ export class Solids {
     return bounds.isEmpty() ? null : bounds;
   }
 
-  // Puts what moves where it is now.
+  // Moves obstacles to their current positions.
   place() {
     for (const {obstacle, mesh} of this.passing) {
       const at = obstaclePlace(obstacle, this.world.time);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tags as discs that always face the camera, all in three draw calls (those behind something,
-// those in sight, those read of late): coloured by RSSI with opacity where read of late, a ring
-// where read before, grey where never.
+// Tags as discs that always face the camera, all in three draw calls (occluded tags, visible ones,
+// recently read ones): a disc with the colour and opacity of the RSSI if read recently, a ring if
+// read before, grey if never read.
 
 import {
   Color, GreaterDepth, InstancedBufferAttribute, InstancedBufferGeometry, LessEqualDepth, Mesh,
@@ -13,7 +13,7 @@ import {rssiColor} from "../colors.js";
 const RADIUS_M = 0.07;
 const LEAST_RADIUS_PX = 4.5;
 const EVER =
-  1;  // Kinds of the shader: never read 0, read before 1, read of late 2; +4 where selected.
+  1;  // Kinds in the shader: 0 never read, 1 read before, 2 recently read; +4 if selected.
 const LATELY = 2;
 const SELECTED = 4;
 
@@ -84,7 +84,7 @@ export class Tags {
       uInk: {value: new Color()}
     };
     this.uniforms = uniforms;
-    // Those behind something first, then those in sight, those read of late on top.
+    // Occluded tags first, then visible ones, recently read ones on top.
     this.meshes = [
       [GreaterDepth, 0.45, 0, 9], [LessEqualDepth, 1, 0, 1], [LessEqualDepth, 1, LATELY, 9]
     ].map(([depthFunc, opacity, from, to], i) => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `explain` as a page: the verdict, the link budget line by line as a waterfall, what the reader
-// makes of it, and the strongest paths.
+// The answer of `explain` as HTML: the verdict, the link budget as a waterfall chart, the figures
+// at the reader, and the strongest paths.
 
 import {h, fixed, signed} from "../dom.js";
 
@@ -8,7 +8,7 @@ const MOST_PATHS = 8;
 const db = (value) => (value === null || value === undefined ? "none" : `${signed(value)} dB`);
 const dbm = (value) => (value === null || value === undefined ? "none" : `${fixed(value)} dBm`);
 
-// Running level after each line; lines of null (nothing left) end it.
+// Levels before and after each line; a line of null (no power left) sets the level to −∞.
 function levels(lines) {
   const all = [];
   let level = 0;

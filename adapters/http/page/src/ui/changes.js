@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes and faults of a live world: tags, antennas and obstacles come, go and move.
+// Changes and faults of a live world: adds and removes tags and obstacles, moves and detunes tags,
+// disconnects and removes antennas.
 
 import {h, setText} from "../dom.js";
 
@@ -117,7 +118,7 @@ export class Changes {
                     }))));
   }
 
-  // Buttons of the panel of one tag or antenna; errors are said there.
+  // Buttons for the panel of one tag or antenna; errors are shown there.
   actions(kind, name) {
     const error = h("p", {class: "error", role: "alert"});
     const act = async (method, path, body) => {

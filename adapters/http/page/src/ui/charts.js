@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Phase and RSSI of one tag over the last while: a small canvas each, one colour an antenna.
+// Charts of the recent phase and RSSI of one tag: a small canvas each, one colour per antenna.
 
 import {antennaColor} from "../colors.js";
 

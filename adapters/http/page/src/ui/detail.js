@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of the tag or antenna that is selected.
+// Details of the selected tag or antenna.
 
 import {antennaColor, MARGINS} from "../colors.js";
 import {fixed, h, setText} from "../dom.js";
@@ -11,10 +11,10 @@ import {drawChart} from "./charts.js";
 const CHART_S = 30;
 const CHART_MS = 150;
 const EXPLAIN_MS = 1000;
-const MOST_POINTS = 3000;  // Drawn in a chart [1].
+const MOST_POINTS = 3000;  // Maximum drawn in a chart [1].
 const LEAST_CELL_M = 0.25;
 const MOST_CELLS =
-  190;  // Of a side of the square, within the antenna's range, that the server computes.
+  190;  // Maximum per side of the square within the antenna's range that the server computes.
 const PHASE = {
   title: "Phase [rad]",
   low: 0,
@@ -189,13 +189,13 @@ export class Detail {
     ];
   }
 
-  // Charts and explanation are due at once.
+  // Makes charts and explanation due immediately.
   #forget() {
     this.lastExplain = this.lastChart = -Infinity;
     this.explainedAt = NaN;
   }
 
-  // True where something is still due.
+  // Returns true if an update is still due.
   update(changed, now) {
     const {selection} = this.world;
     if (changed.has("selection") || changed.has("tags-list") || changed.has("antennas"))
@@ -215,7 +215,7 @@ export class Detail {
       !this.#explainIfTime(selection.index, now);
   }
 
-  // At most once a second.
+  // Explains the link, at most once per second; returns whether it did.
   #explainIfTime(index, now) {
     if (now - this.lastExplain < EXPLAIN_MS) return false;
     this.lastExplain = now;
@@ -305,7 +305,7 @@ export class Detail {
     }
   }
 
-  // The antenna chosen; else the one that reads the tag strongest of late; else the nearest.
+  // The chosen antenna, else that of the strongest recent read of the tag, else the nearest.
   #antennaFor(index) {
     const {world} = this;
     if (this.chosen && world.antennas[world.antennaIndex.get(this.chosen)]?.present)

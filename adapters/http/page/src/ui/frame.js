@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page's parts, empty: what stands where. It lives in a shadow root, so that the page around it
-// and its style don't touch each other.
+// The layout of the page with its parts still empty. It is in a shadow root, so that its styles and
+// those of the surrounding page do not affect each other.
 
 import {h} from "../dom.js";
 import css from "../page.css";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the colours of the world mean.
+// Legend of the colours in the world.
 
 import {rssiCss} from "../colors.js";
 import {h} from "../dom.js";

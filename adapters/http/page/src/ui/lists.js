@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists of tags and antennas with a search: the world for keyboard and screen reader.
+// Lists of tags and antennas with a search: the world for keyboard and screen reader users.
 
 import {antennaColor, rssiCss} from "../colors.js";
 import {fixed, h, naturally, setText} from "../dom.js";
@@ -8,7 +8,7 @@ const MOST = 200;
 const PERIOD_MS = 500;
 
 export class Lists {
-  // tabs: further ones beside tags and antennas, [{name, element}].
+  // select(kind, index) is called when a row is clicked.
   constructor(at, world, scale, select) {
     Object.assign(this, {world, scale, select, rows: [], shown: "tags", last: 0});
     this.search = h("input", {
@@ -42,7 +42,7 @@ export class Lists {
     this.#mark();
   }
 
-  // onshown(whether): called when the tab is taken and left.
+  // onshown(whether): called with true when the tab is opened, with false when it is left.
   addTab(name, text, element, onshown = () => {}) {
     this.panels.set(name, [element]);
     this.onshown.set(name, onshown);
@@ -100,7 +100,7 @@ export class Lists {
     return found.sort((a, b) => value(b) - value(a) || rank[a] - rank[b]);
   }
 
-  // Places of the tags in the order of their names; comparing thousands of names takes long.
+  // Ranks of the tags in the order of their names, cached: comparing thousands of names is slow.
   #ranks() {
     const {tags} = this.world;
     if (this.ranks?.length === tags.length) return this.ranks;
@@ -184,8 +184,8 @@ export class Lists {
     row.swatch.style.background = antennaColor(row.index);
   }
 
-  // At most twice a second: a screen reader and an eye need no more. Names and order only when they
-  // change.
+  // At most twice a second, which is enough for eyes and screen readers; names and order only when
+  // they change. Returns true if an update is still due.
   update(changed, now) {
     const anew = changed.has("tags-list") || changed.has("antennas");
     if (!anew && !changed.has("selection") && now - this.last < PERIOD_MS) return true;

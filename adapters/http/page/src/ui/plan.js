@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan of antennas beside the world: a slider over their number, what such a layout has, and its
-// antennas.
+// Panel of an antenna plan: a slider over the number of antennas, the figures of that layout, and a
+// table of its antennas.
 
 import {bandColor} from "../colors.js";
 import {fixed, h, setText} from "../dom.js";
@@ -15,8 +15,8 @@ function bandText(edges, i) {
 }
 
 export class PlanPanel {
-  // show(layout|null, withTags): draws the layout of that number, in place of the tags or beside
-  // them, or the tags alone.
+  // show(layout|null, withTags): draws the layout with this index, instead of the tags or together
+  // with them; null draws the tags alone.
   constructor(plan, show) {
     Object.assign(this, {plan, show, isOpen: false});
     this.count = h("input", {

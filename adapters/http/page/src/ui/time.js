@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bar of time: pause, step and speed of a live world; play, slider and speed of a recorded one.
+// The time bar: pause, step and speed of a live world; play, slider and speed of a recorded run.
 
 import {fixed, h, setText} from "../dom.js";
 
@@ -7,7 +7,7 @@ const STEP_S = 0.1;
 const clock = (t) => `${fixed(t, t < 1000 ? 2 : 1)} s`;
 
 export class TimeBar {
-  // command(method, path, body): to the live server; recording: of a recorded run, else null.
+  // command(method, path, body): sends it to the live server. recording: null for a live world.
   constructor(at, world, recording, command) {
     Object.assign(this, {world, recording, command});
     this.pause = h("button", {type: "button", class: "pause", onclick: () => this.toggle()});
@@ -70,7 +70,7 @@ export class TimeBar {
       this.command("POST", this.world.paused ? "resume" : "pause");
   }
 
-  // By some seconds: a recorded run either way, a live one only on.
+  // Steps by some seconds: a recorded run forwards or backwards, a live world only forwards.
   stepOn(seconds = STEP_S) {
     if (this.recording) {
       this.recording.play(false);
