@@ -1,27 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by demo and test: goes to the top of the checkout, hands the work to the checkout's owner
-# where the script was started through sudo, and lets no two builds run at once.
+# Sourced by the other scripts: changes to the top of the checkout; its functions run a script as the
+# owner of the checkout if it was started with sudo, and prevent concurrent builds.
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# is_for_owner: whether root runs the script in somebody else's checkout.
+# is_for_owner: whether root runs the script in another user's checkout.
 is_for_owner() {
   local owner
   owner=$(stat --format=%U .)
   [[ $EUID -eq 0 && "$owner" != root && "$owner" != UNKNOWN ]]
 }
 
-# become_owner SCRIPT [ARGUMENT…]: files made in somebody's checkout are to be theirs, not root's.
+# become_owner SCRIPT [ARGUMENT…]: reruns the script as the owner of the checkout, so that files created
+# in it belong to that user, not to root.
 become_owner() {
   if is_for_owner; then exec runuser --user "$(stat --format=%U .)" -- "$@"; fi
 }
 
-# What build/release is configured with wherever tests are built in it; only one set, as another would
-# build everything anew.
+# Options of build/release; with_tests wherever tests are built in it. Always the same set, as another one
+# would rebuild everything.
 with_ros=(-DTAGFIELD_ROS1=ON -DTAGFIELD_ROS2=ON)
 without_ros=(-DTAGFIELD_ROS1=OFF -DTAGFIELD_ROS2=OFF)
 with_tests=("${with_ros[@]}" -DTAGFIELD_TESTS=ON -DTAGFIELD_BENCHMARKS=ON -DTAGFIELD_GZ=ON)
 
-# build [TARGET…]: configures if need be and builds build/release.
+# build [TARGET…]: configures build/release if necessary, and builds targets in it.
 build() {
   mkdir -p build
   exec 9>build/.lock
@@ -34,8 +35,8 @@ build() {
   exec 9>&-
 }
 
-# build_gazebo FOLDER TARGETS [OPTION…]: configures if need be and builds plugins in build/FOLDER, with
-# the compiler of the system that Gazebo 11 is on (whose CMake may be too old for presets).
+# build_gazebo FOLDER TARGETS [OPTION…]: configures build/FOLDER if necessary and builds plugins in it, with
+# the compiler of the system that Gazebo 11 is installed on (whose CMake may be too old for presets).
 build_gazebo() {
   local folder=$1 targets
   read -ra targets <<<"$2"

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by the scripts that deal with Gazebo 11; changes nothing by itself. Debian 12 has no Gazebo
-# 11, so there it lives in a folder with a whole Debian 11, the root.
+# Sourced by the scripts for Gazebo 11; changes nothing by itself. Debian 12 has no Gazebo 11, so there
+# it is installed in a folder with a complete Debian 11, the root.
 tagfield_top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 gazebo_root=$(realpath --canonicalize-missing "${TAGFIELD_GAZEBO_ROOT:-$tagfield_top/build/gazebo-root}")
 
-# The list of packages in a root that is whole.
+# The list of packages in a complete root.
 gazebo_root_stamp=etc/tagfield-packages
 
-# Exit code for "can't be had on this machine", which tests count as skipped.
+# Exit code for "not available on this machine", which tests count as skipped.
 exit_skip=77
 
-# skip MESSAGE: one line that says what is missing.
+# skip MESSAGE: prints one line that names what is missing, and exits.
 skip() {
   echo "$(basename "$0"): $*" >&2
   exit "$exit_skip"
@@ -21,8 +21,8 @@ gazebo_is_native() {
   command -v gzserver >/dev/null && gzserver --version 2>/dev/null | grep --quiet 'version 11\.'
 }
 
-# Sets the list `as_root` to what runs a command as root, or skips. Asks for a password only on a
-# terminal.
+# require_root WHAT: sets `as_root` to the command prefix that runs a command as root, or skips. Asks
+# for a password only on a terminal.
 require_root() {
   as_root=()
   [[ $EUID -eq 0 ]] && return

@@ -4,7 +4,8 @@
 #
 #   docs/site/build.sh TAGFIELD PYTHON_FOLDER OUT [yes|no]
 #
-# TAGFIELD is the program, PYTHON_FOLDER holds the Python package, OUT is made anew; no: without the gallery's pictures.
+# TAGFIELD is the program, PYTHON_FOLDER contains the Python package, OUT is recreated; no: without the images of the
+# gallery.
 set -euo pipefail
 tagfield=$1 python=$2 out=$3 gallery=${4:-yes}
 mkdir -p "$out"

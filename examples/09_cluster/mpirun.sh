@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# A sweep by MPI: each rank takes runs as it gets done with others.
+# A sweep with MPI: each rank takes the next run when it has finished one.
 #
 #   mpirun.sh SUITE DIR N [mpirun's options, such as --hostfile hosts]
 #
-# Within a Slurm job, `srun tagfield_sweep_mpi SUITE --out DIR` does as well where Slurm knows MPI.
+# In a Slurm job, `srun tagfield_sweep_mpi SUITE --out DIR` does the same if Slurm supports MPI.
 set -euo pipefail
 suite=$1
 folder=$2

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs what the program ships and opens the pages in headless Chromium: page_test.py.
+# Runs shipped scenarios and examples, and checks their pages in headless Chromium with page_test.py.
 #
 #   page_test.sh TAGFIELD SOURCE_DIR
 set -euo pipefail
@@ -10,7 +10,7 @@ runs=$(mktemp --directory --tmpdir page_test-XXXXXX)
 trap 'rm -rf "$runs"' EXIT
 log="$runs/log"
 
-# make NAME ARGUMENT…: one run folder, quiet unless it fails.
+# make NAME ARGUMENT…: creates one run folder; quiet unless it fails.
 make() {
   local name=$1
   shift

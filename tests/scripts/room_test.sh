@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# scripts/room runs the tests of a room, and says which rooms there are.
+# Tests that scripts/room runs the tests of a room or of a file, and lists the rooms for an unknown one.
 #
 #   room_test.sh SOURCE_DIR
 set -euo pipefail

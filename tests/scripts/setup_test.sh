@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# scripts/setup leaves out what a system has no package of, says so, and asks for all else; with programs in place of
-# apt's and dpkg's that install nothing.
+# Tests that scripts/setup skips optional packages that a system does not have, reports them, and installs all others;
+# with stubs for the programs of apt and dpkg, which install nothing.
 #
 #   setup_test.sh SOURCE_DIR
 set -euo pipefail
@@ -12,13 +12,13 @@ mkdir "$folder/bin"
 export FOLDER=$folder
 
 program() { cat >"$folder/bin/$1" && chmod 755 "$folder/bin/$1"; }
-# Installed is what stands in the file `installed`; all where that says so.
+# Installed packages are those listed in the file `installed`; with `all` in it, all are.
 program dpkg-query <<'END'
 #!/bin/sh
 for package; do :; done
 grep -qxF -e "$package" -e all "$FOLDER/installed" && printf installed
 END
-# There are lists once there is a file `lists`, in which stands what they lack.
+# Package lists exist once there is a file `lists`, which names the packages that they lack.
 program apt-cache <<'END'
 #!/bin/sh
 [ -e "$FOLDER/lists" ] || exit 0
@@ -39,7 +39,8 @@ END
 printf '#!/bin/sh\nexec "$@"\n' | program sudo
 export PATH="$folder/bin:$PATH"
 
-# setup INSTALLED ARCHIVE_LACKS LISTS [OPTION…]: its exit code is in `code`, and what it said in `said`.
+# setup INSTALLED ARCHIVE_LACKS LISTS [OPTION…]: runs scripts/setup; sets `code` to its exit code and `said` to its
+# output.
 setup() {
   rm -f "$folder/lists" "$folder/calls"
   tr ' ' '\n' <<<"$1" >"$folder/installed"
@@ -73,7 +74,7 @@ for lists in known none; do
   [[ $code -eq 100 && "$said" == *"Unable to locate package libassimp-dev"* ]] || fail "no Assimp, lists $lists"
 done
 
-# Of what is missing nothing can be had: that is told, and nothing asked of the network.
+# If no missing package is available, that is reported, and the network is not used.
 everything=$(sed -nE '/^packages=\(/,/^\)/{s/#.*//;s/^packages=\(|^\)//;p}' scripts/setup | xargs)
 [[ "$everything" == *libassimp-dev* ]] || fail "the packages are not where they were"
 setup "${everything/coinor-libcbc-dev /}" coinor-libcbc-dev known

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Every C++ file stands as clang-format would put it.
+# Tests that every C++ file is formatted by clang-format.
 #
 #   format_test.sh SOURCE_DIR
 set -euo pipefail
 cd "$1"
 command -v clang-format >/dev/null || { echo "skipped: clang-format is not installed"; exit 77; }
-# Each version puts some lines elsewhere, whatever .clang-format says.
+# Versions of clang-format differ in some lines, even with the same .clang-format.
 version=$(clang-format --version | sed -E 's/.*version ([0-9]+).*/\1/')
 [[ "$version" == 14 ]] || { echo "skipped: the form is that of clang-format 14, and here is $version"; exit 77; }
 files=$(mktemp)
@@ -24,7 +24,7 @@ fi
 count=$(tr -cd '\0' <"$files" | wc -c)
 [[ $count -ge 50 ]] || { echo "only $count files: looked in the wrong place?"; exit 1; }
 
-# It must be able to fail.
+# Makes sure that the check can fail.
 if echo 'int  main( ){ }' | clang-format --style=file --assume-filename=a.cc --dry-run --Werror \
   2>/dev/null; then
   echo "clang-format takes anything: is .clang-format there?"

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# tidy_test.py where clang-tidy is Debian 12's: each version has checks of its own, and .clang-tidy chooses among those
-# of one.
+# Runs tidy_test.py if clang-tidy is the version of Debian 12: the checks differ between versions, and .clang-tidy
+# selects from those of this one.
 #
-#   tidy_test.sh SOURCE_DIR BUILD_DIR [OPTION…]   those of tidy_test.py
+#   tidy_test.sh SOURCE_DIR BUILD_DIR [OPTION…]   options of tidy_test.py
 set -euo pipefail
 version=$(clang-tidy --version 2>/dev/null | sed -nE 's/.*version ([0-9]+).*/\1/p' || true)
 if [[ -n "$version" && "$version" != 14 ]]; then
