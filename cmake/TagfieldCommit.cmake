@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # Writes OUT, a header with the commit of SOURCE, for `tagfield --version`. Run at each build, but OUT is
-# touched only where it changes, so that a commit costs one small source and a link.
+# written only if it changes, so that a new commit recompiles only one small source and relinks.
 #
 #   cmake -DSOURCE=DIR -DTEMPLATE=build_commit.h.in -DOUT=build_commit.h -P TagfieldCommit.cmake
 set(COMMIT "")
 set(DATE "")
 set(CHANGED false)
 find_program(git git)
-if(git AND EXISTS ${SOURCE}/.git)  # Else a tarball, which may lie in somebody's repository.
+if(git AND EXISTS ${SOURCE}/.git)  # Otherwise a tarball, possibly unpacked inside another repository.
   execute_process(COMMAND ${git} -C ${SOURCE} rev-parse --verify --short=12 HEAD
     OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   execute_process(COMMAND ${git} -C ${SOURCE} log -1 --format=%cs

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-# What can be built, installed and asked for by itself, for Tagfield's own build and for whoever finds it:
+# The components that can be built, installed and found separately, for Tagfield's own build and for
+# find_package():
 #
 #   cmake -DTAGFIELD_COMPONENTS="localization;files" …
 #   find_package(tagfield REQUIRED COMPONENTS localization files)
 #
-# A component is some rooms, the packages that a program needs to link them (PACKAGES of CMake, MODULES of
-# pkg-config), and the components above it that they stand on.
+# A component consists of some rooms, the packages that a program needs to link them (PACKAGES of CMake,
+# MODULES of pkg-config), and the earlier components that they depend on (NEEDS).
 
-# Embree 3 or, where that is missing, 4: its own files for CMake may refuse a call without a version.
+# Embree 3 or, if that is missing, 4: its CMake package may reject a search without a version.
 find_package(embree 3 QUIET)
 set(tagfield_embree "embree 4")
 if(embree_FOUND)
@@ -37,8 +38,8 @@ tagfield_component(planning NEEDS report simulator ROOMS planning layout PACKAGE
 tagfield_component(experiment NEEDS report simulator ROOMS experiment)
 tagfield_component(live NEEDS planning ROOMS live)
 
-# tagfield_with_needs(OUT COMPONENT…): these and all that they stand on, in the order above. A name that is
-# none remains at the front.
+# tagfield_with_needs(OUT COMPONENT…): the components and all their dependencies, in the order above. Unknown
+# names stay at the front.
 function(tagfield_with_needs out)
   set(found "")
   set(todo ${ARGN})

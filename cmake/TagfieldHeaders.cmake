@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Headers of libraries that most sources include, which take longer to read than the sources: they are
-# read once for all. -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON reads each source as it stands.
+# Precompiled headers: library headers that most sources include and that take longer to compile than the
+# sources. -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON compiles without them.
 set(tagfield_common_headers
   <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <string> <vector>
   <Eigen/Geometry>)
@@ -9,8 +9,8 @@ if(NOT EXISTS ${nothing})
   file(WRITE ${nothing} "")
 endif()
 
-# tagfield_headers_once(TARGET [OPTION…]): a target whose headers others reuse. Its options are theirs, too: the level
-# of optimization is that at which headers were read.
+# tagfield_headers_once(TARGET [OPTION…]): a target whose precompiled headers others reuse. These must be compiled
+# with the same options, including the optimization level.
 function(tagfield_headers_once target)
   add_library(${target} OBJECT ${nothing})
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -21,8 +21,9 @@ function(tagfield_headers_once target)
 endfunction()
 tagfield_headers_once(tagfield_headers)
 
-# tagfield_read_headers_once(TARGET [<header>…]): those, and more if there are; of a library that links
-# fmt and is of position-independent code. A unity build reads those others seldom as it is.
+# tagfield_read_headers_once(TARGET [<header>…]): uses these precompiled headers, or compiles its own with
+# additional ones; for a library that links fmt and is position-independent. In a unity build the
+# additional ones are not worth it, as they are seldom included.
 function(tagfield_read_headers_once target)
   if(ARGN AND CMAKE_UNITY_BUILD)
     return()
@@ -33,20 +34,20 @@ function(tagfield_read_headers_once target)
   endif()
 endfunction()
 
-# tagfield_compile_fast(TARGET): what doesn't take long when it runs is not to take long to compile either: -O1 saves
-# a third. Links fmt.
+# tagfield_compile_fast(TARGET): compiles code that is not performance-critical at -O1, which saves a third of the
+# compile time. The target must link fmt.
 set(tagfield_fast_options $<$<CONFIG:Release>:-O1>)
 tagfield_headers_once(tagfield_fast_headers ${tagfield_fast_options})
 function(tagfield_compile_fast target)
-  # As the headers were read, of programs, too, for which CMake would say -fPIE.
+  # With -fPIC, like the precompiled headers, also for programs, for which CMake would use -fPIE.
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
   target_compile_options(${target} PRIVATE -fPIC ${tagfield_fast_options})
   target_precompile_headers(${target} REUSE_FROM tagfield_fast_headers)
 endfunction()
 
 if(TAGFIELD_TESTS)
-  # Tests run hardly more often than they are compiled, which takes a third less time at -O1. There GCC's
-  # warnings that follow the flow of values see faults in the standard library where none are.
+  # Tests run hardly more often than they are compiled, which takes a third less time at -O1. At that level
+  # GCC's flow-based warnings have false positives in the standard library.
   set(tagfield_test_options $<$<CONFIG:Release>:-O1>)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     list(APPEND tagfield_test_options -Wno-array-bounds -Wno-maybe-uninitialized

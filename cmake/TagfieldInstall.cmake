@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Installs libraries and the CMake package (headers: each room its own), so that another project can
+# Installs libraries and the CMake package (each room installs its own headers), so that another project can
 #   find_package(tagfield REQUIRED COMPONENTS simulator)
 #   target_link_libraries(program PRIVATE tagfield::simulator)
 include(CMakePackageConfigHelpers)

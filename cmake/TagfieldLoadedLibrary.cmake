@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# tagfield_loads(TARGET MACRO LIBRARY INCLUDE_FOLDER…): TARGET doesn't link the shared LIBRARY (its path), but
-# loads it when it is first needed (tagfield/base/loaded_library.h), by the name that programs which link it have
-# of it, which becomes MACRO. Packages recommend what it comes in.
+# tagfield_loads(TARGET MACRO LIBRARY INCLUDE_FOLDER…): TARGET does not link the shared LIBRARY (its path), but
+# loads it at first use (tagfield/base/loaded_library.h) by its SONAME, which is defined as MACRO. Debian packages
+# recommend the package of the library instead of depending on it.
 function(tagfield_loads target macro library)
   get_filename_component(file ${library} REALPATH)
   execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${file} OUTPUT_VARIABLE heads ERROR_QUIET)
@@ -13,7 +13,7 @@ function(tagfield_loads target macro library)
   set_property(TARGET ${target} APPEND PROPERTY TAGFIELD_LOADED ${file})
 endfunction()
 
-# tagfield_loaded_packages(VARIABLE TARGET…): the Debian packages of the libraries that these load.
+# tagfield_loaded_packages(VARIABLE TARGET…): the Debian packages of the libraries that these targets load.
 function(tagfield_loaded_packages variable)
   find_program(TAGFIELD_DPKG_QUERY dpkg-query)
   set(files "")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian packages by CPack, one a component: scripts/package, or the target `package` of the build.
+# Debian packages with CPack, one per component: scripts/package, or the target `package` of the build.
 #
-#   tagfield          the command, completion of shells, pages of the manual
+#   tagfield          the command, shell completions, man pages
 #   tagfield-common   scenarios, worlds, profiles, models and templates
 #   tagfield-mpi      sweeps under mpirun
 #   libtagfield-dev   headers, static libraries and the CMake package
@@ -10,7 +10,7 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tagfield)
 set(CPACK_PACKAGE_VENDOR "Tagfield")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # Each has its own.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # Each package has its own.
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The Tagfield authors <tagfield@example.org>" CACHE STRING
   "Who answers for the packages")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -26,8 +26,8 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 
 set(notes ${PROJECT_BINARY_DIR}/packages_notes)
-# Debian's form of a changelog, whose history is CHANGELOG.md. Its date is the sources', so that the same sources
-# give the same bytes.
+# A changelog in Debian's format that refers to CHANGELOG.md. Its date is that of the commit, for reproducible
+# packages.
 set(date "Thu, 01 Jan 1970 00:00:00 +0000")
 find_program(git git)
 if(git AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
@@ -87,13 +87,13 @@ with all ranks of an MPI program."
     SUMMARY "simulator of UHF RFID: headers and static libraries"
     DESCRIPTION "Headers, static libraries and the CMake package for programs that simulate\n\
 UHF RFID themselves: find_package(tagfield COMPONENTS simulator)."
-    # Those that cmake/TagfieldComponents.cmake looks for, and what they need and don't depend on.
+    # The packages that cmake/TagfieldComponents.cmake looks for, and what they need without depending on it.
     DEPENDS libeigen3-dev libfmt-dev "tagfield-common (= ${PROJECT_VERSION})"
     RECOMMENDS cmake g++ pkg-config libassimp-dev libcsv-dev libdraco-dev libembree-dev libminizip-dev
       libpng-dev libpolyclipping-dev libtinyxml2-dev libyaml-cpp-dev zlib1g-dev coinor-libcbc-dev)
 endif()
 if(TARGET tagfield_python)
-  # Set where python/ found it.
+  # Set by python/CMakeLists.txt.
   get_target_property(python_version tagfield_python TAGFIELD_PYTHON_VERSION)
   string(REGEX MATCH "^([0-9]+)\\.([0-9]+)" python_version "${python_version}")
   math(EXPR next_minor "${CMAKE_MATCH_2} + 1")

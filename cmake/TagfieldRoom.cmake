@@ -2,10 +2,10 @@
 # tagfield_room(NAME SOURCES a.cc … PUBLIC_HEADERS a.h … LINKS room … PRIVATE library …
 #               TESTS a_test.cc … TEST_PARTS n [COMPILE_FAST])
 #
-# One room of the house: a static library tagfield_NAME, known to others as tagfield::NAME, that
-# links only the rooms and libraries it is given, with its tests in test/. Headers lie beside the
-# sources and are included by their path from the top of the source tree; PUBLIC_HEADERS are for users'
-# programs too (docs/api.md). COMPILE_FAST: nothing in it takes long (tagfield_compile_fast).
+# One room, which is a source directory in tagfield/: a static library tagfield_NAME with the alias
+# tagfield::NAME, which links only the given rooms and libraries, with its tests in test/. Headers are
+# next to the sources and included by their path from the top of the source tree; PUBLIC_HEADERS are also
+# for users' programs (docs/api.md). COMPILE_FAST: it is not performance-critical (tagfield_compile_fast).
 function(tagfield_room name)
   cmake_parse_arguments(ROOM "COMPILE_FAST" "TEST_PARTS"
     "SOURCES;PUBLIC_HEADERS;LINKS;PRIVATE;TESTS" ${ARGN})
@@ -23,7 +23,7 @@ function(tagfield_room name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE})
   tagfield_warnings(${target})
-  # For the plugins the core is compiled once more; there each room at one go.
+  # The core is compiled separately for the plugins; there each room is one translation unit.
   if(TAGFIELD_GAZEBO AND NOT TAGFIELD_COMMAND)
     tagfield_compile_together(${target})
   elseif(ROOM_COMPILE_FAST)
@@ -38,7 +38,7 @@ function(tagfield_room name)
   endif()
 endfunction()
 
-# tagfield_public_headers(ROOM a.h …): are installed, under include/tagfield/ROOM/.
+# tagfield_public_headers(ROOM a.h …): installs them in include/tagfield/ROOM/.
 function(tagfield_public_headers room)
   foreach(header IN LISTS ARGN)
     get_filename_component(folder tagfield/${room}/${header} DIRECTORY)
@@ -46,21 +46,21 @@ function(tagfield_public_headers room)
   endforeach()
 endfunction()
 
-# tagfield_plain_arithmetic(TARGET): no errno and no exceptions' flags from mathematical functions, no
-# product and sum in one instruction, and complex numbers are multiplied and divided without a look for
-# infinities, which never come in. So compilers find vector instructions for loops, and results are the
-# same bits in all of them (tagfield/base/lanes.h).
+# tagfield_plain_arithmetic(TARGET): mathematical functions set neither errno nor floating-point exception
+# flags, there is no fused multiply-add, and complex multiplication and division do not check for
+# infinities, which never occur. This lets compilers vectorize loops, with bitwise identical results for
+# all instruction sets (tagfield/base/lanes.h).
 function(tagfield_plain_arithmetic target)
   target_compile_options(${target} PRIVATE
     -fno-math-errno -fno-trapping-math -ffp-contract=off
     $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range>)
-  # Headers read once for all were read without these.
+  # The precompiled headers were compiled without these options.
   set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
 endfunction()
 
-# tagfield_test(NAME SOURCES … LINKS … [PARTS n]): one GoogleTest program, to ctest one test or as many
-# as there are parts, between which its cases are dealt: to load the libraries for each case alone would
-# take longer than most cases. RapidCheck draws anew in each run unless it is given a seed.
+# tagfield_test(NAME SOURCES … LINKS … [PARTS n]): one GoogleTest program, registered with ctest as one
+# test or as n parts (shards), but not by test case: loading the libraries takes longer than most cases.
+# RapidCheck has a fixed seed, as it would draw new values in each run otherwise.
 function(tagfield_test name)
   cmake_parse_arguments(TEST "" "PARTS" "SOURCES;LINKS" ${ARGN})
   list(TRANSFORM TEST_SOURCES PREPEND test/ REGEX "^[^/]+$")
@@ -82,7 +82,7 @@ function(tagfield_gtest name)
     set(cost 10)
     if(count GREATER 1)
       set(test ${name}.${part})
-      set(cost 100)  # long: not to be left over at the end
+      set(cost 100)  # long: must not run alone at the end
     endif()
     math(EXPR index "${part} - 1")
     add_test(NAME ${test} COMMAND ${name})
@@ -91,29 +91,29 @@ function(tagfield_gtest name)
   endforeach()
 endfunction()
 
-# tagfield_compile_together(TARGET): all its sources as one, so that their headers are read once.
+# tagfield_compile_together(TARGET): compiles all its sources as one, so that headers are parsed once.
 function(tagfield_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
   target_compile_options(${target} PRIVATE ${tagfield_unity_options})
 endfunction()
 
-# GCC takes sources that are included for headers; and what one source names globally may be the name of
-# something local in another.
+# In a unity build GCC treats included sources as headers, and a local name in one source may shadow a global
+# name of another.
 set(tagfield_unity_options -Wno-subobject-linkage -Wno-shadow -Wshadow=local)
 
 function(tagfield_warnings target)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-    return()  # Another compiler has other things to say; these are kept clean by GCC and clang-tidy.
+    return()  # Other compilers have other warnings; the sources are kept clean with GCC and clang-tidy.
   endif()
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
     -Woverloaded-virtual -Wold-style-cast $<$<BOOL:${TAGFIELD_WERROR}>:-Werror>)
-  # From version 13 on GCC warns of every reference that a function gives where one of its arguments is a temporary,
-  # such as a name that is looked for.
+  # From version 13 on GCC warns of every reference returned by a function with a temporary among its arguments,
+  # such as the key of a lookup.
   if(CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
     target_compile_options(${target} PRIVATE -Wno-dangling-reference)
   endif()
-  # Before version 12 it took the value of an optional that is looked at first for one that may not be there.
+  # Before version 12 GCC reported the value of an optional as maybe uninitialized even after a check of it.
   if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
     target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
   endif()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Compiles for arm64 on another machine with Debian's cross compiler, and runs the tests under qemu-user: docs/install.md.
-# Libraries are those of Debian's architecture arm64, beside the machine's own.
+# Toolchain file: cross-compiles for arm64 with Debian's cross compiler, and runs the tests under qemu-user:
+# docs/install.md. Libraries are those of Debian's arm64 architecture, installed next to the native ones (multiarch).
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Loaded before the C library (LD_PRELOAD): makes what a program asks of the system go wrong.
+/* Fault injection, loaded before the C library (LD_PRELOAD): makes system and library calls of a program fail.
 
-   FAULT=CALL:N:WHAT     at the Nth call, and FAULT=CALL:N+:WHAT from the Nth call on.
+   FAULT=CALL:N:WHAT     fails the Nth call, FAULT=CALL:N+:WHAT all calls from the Nth on.
    CALL  rename  rename and renameat2
          write   write and writev to regular files
          read    read, pread and fread's reads of regular files
          sync    fsync and fdatasync
-         open    open, openat and fopen, of what is no part of the system (/proc, /sys, /dev, /usr, /etc, /lib)
+         open    open, openat and fopen, except of system files (/proc, /sys, /dev, /usr, /etc, /lib)
          mkdir   mkdir
          alloc   malloc, calloc and realloc of over 100 bytes
          thread  pthread_create
          clock   clock_gettime of CLOCK_REALTIME
    WHAT  an error: ENOSPC, EIO, EMFILE, ENOMEM, EACCES, EAGAIN; KILL or TERM, a signal before
-         the call; or, of clock, seconds that it is off by
-   COUNT_FILE=PATH       says at the end of the program how many there were, a line "CALL COUNT" each.
-   Of fork()ed programs only the first counts. */
+         the call; or, for clock, an offset in seconds
+   COUNT_FILE=PATH       when the program exits, the file gets a line "CALL COUNT" for each kind of call; if it
+                         forks, from the last process that exits. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -41,7 +41,7 @@ static const struct {
               {"ENOMEM", ENOMEM}, {"EACCES", EACCES}, {"EAGAIN", EAGAIN}};
 
 static atomic_long counts[CALLS];
-static int faulty = -1; /* the call that goes wrong */
+static int faulty = -1; /* the kind of call that fails */
 static long first;
 static int goes_on;
 static int error_number;
@@ -72,7 +72,7 @@ __attribute__((constructor)) static void begin(void) {
   if (faulty < 0 || (signal_number == 0 && error_number == 0 && jump_s == 0)) _exit(99);
 }
 
-/* Whether this call goes wrong; the program may not live to learn it. */
+/* Whether this call fails; may terminate the program by a signal instead. */
 static int goes_wrong(int call) {
   const long now = atomic_fetch_add(&counts[call], 1) + 1;
   if (call != faulty || (goes_on ? now < first : now != first)) return 0;
@@ -212,7 +212,7 @@ int clock_gettime(clockid_t clock, struct timespec* time) {
   return result;
 }
 
-/* The C library's own names for them, as dlsym() itself may allocate. */
+/* The C library's internal names of the allocators, as dlsym() itself may allocate. */
 extern void* __libc_malloc(size_t);
 extern void* __libc_calloc(size_t, size_t);
 extern void* __libc_realloc(void*, size_t);
