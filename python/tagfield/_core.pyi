@@ -1,4 +1,4 @@
-"""What of Tagfield is in C++; users import tagfield."""
+"""The part of Tagfield in C++; users import tagfield."""
 
 from typing import Any, Callable
 
@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 __version__: str
 
 class Error(ValueError):
-    """A bad input: one line that says what, where and what was expected."""
+    """Invalid input; the message is one line with the fault, its location and what was expected."""
 
 class Read:
     @property
