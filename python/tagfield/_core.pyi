@@ -1,4 +1,4 @@
-"""What of Tagfield is in C++; users import tagfield."""
+"""The C++ extension module; users import tagfield instead."""
 
 from typing import Any, Callable
 
@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 __version__: str
 
 class Error(ValueError):
-    """A bad input: one line that says what, where and what was expected."""
+    """An invalid input: a one-line message that states what, where, and what was expected."""
 
 class Read:
     @property
