@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the Python package's part in C++ by CMake, for `pip install .` and `pip wheel .`.
+"""Builds the Python package's C++ extension with CMake, for `pip install .` and `pip wheel .`.
 
-TAGFIELD_BUILD names a build folder that has it already, to be installed from as it is.
+TAGFIELD_BUILD names a build folder that contains it already; it is then installed from there.
 """
 
 import os
@@ -23,7 +23,7 @@ def version():
 
 
 class CMakeBuild(build_ext):
-    """The extension and the files beside it, from CMake's component `python`."""
+    """Installs the extension and its accompanying files from CMake's component `python`."""
 
     def build_extension(self, ext):
         target = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve().parent

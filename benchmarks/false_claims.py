@@ -1,15 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Nothing from nothing: how often the real commands claim what can't be so.
+"""False claims: how often the commands report positions that the data cannot support.
 
     benchmarks/false_claims.py [--tagfield build/release/bin/tagfield] [--cases 1000] [--seed 1]
                                [--methods auto,hyperbola,…] [--room-methods auto,fixed,…]
                                [--conditions "random phases;wrong sign"]
 
-Each case is a tag whose reads can't locate it, or only wrongly. A claim is a place that is located;
-it is false where there is none, or where it is off by over five times its expected error. Prints the
-claims and the false ones of each condition and method; ends with 1 where more than one in a hundred
-is false. `track` and `calibrate` are tried on the conditions that begin with their names.
+Each case is a tag that cannot be located from its reads, or only wrongly. A claim is a tag reported as
+located; it is false if no position can be right, or if its error exceeds five times the expected
+error. Prints the numbers of claims and of false claims for each condition and method; the exit code is
+1 if any of them has more than one false claim per hundred cases. `track` and `calibrate` are tested by
+the conditions "track random phases" and "calibrate random phases".
 """
 
 import argparse
@@ -26,11 +27,11 @@ import made_tables as made
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 METHODS = "auto,hyperbola,least_squares,ml,joint,sar,robust,dah,particle,scan,trilateration"
 ROOM_METHODS = "auto,fixed,trilateration,landmarc"
-BATCH = 50  # Tags in one run.
+BATCH = 50  # Tags per run of the command.
 
 
 def curve(rate=15.0, speed=0.3):
-    """An S of 8 m."""
+    """A sinusoidal path, 8 m long in x."""
     return [(i / rate, (speed * i / rate, 0.7 * math.sin(speed * i / rate)))
             for i in range(int(8 / speed * rate))]
 
@@ -45,7 +46,7 @@ def tag_on(way, visit, rng, place=None, **how):
 
 
 def nothing(change, visit=made.one_channel, way=curve):
-    """Of reads changed like that no place is true."""
+    """A condition whose reads are changed so that no position is right."""
     def make(rng):
         rows, _ = tag_on(way(), visit, rng)
         return change(rows, rng), None
@@ -62,7 +63,7 @@ def constant_phases(rows, rng):
 
 
 def two_tags(rng):
-    """The reads of another tag under this one's EPC, every other one."""
+    """Two tags with the same EPC, read alternately."""
     first, place = tag_on(curve(), made.one_channel, rng)
     second, _ = tag_on(curve(), made.one_channel, rng)
     return [row for i, (a, b) in enumerate(zip(first, second)) for row in (a if i % 2 else b,)], None
@@ -83,7 +84,7 @@ def moving(rng):
 
 
 def on_the_line(rng):
-    """Ahead of, on, or behind a straight path, a few centimetres beside it at most."""
+    """A tag on the line of a straight path or its extension, up to a few centimetres off."""
     place = rng.uniform(-1.0, 7.0), rng.gauss(0, 0.03)
     return tag_on(made.straight(), made.one_channel, rng, place)
 
@@ -94,13 +95,13 @@ def wrong_sign(rng):
 
 
 def other_run(rng):
-    """The poses are those of another drive: the same times, another curve."""
+    """The poses are those of another drive, with the same times along another curve."""
     rows, _ = tag_on(curve(), made.one_channel, rng)
     return rows, None
 
 
-#: Name: what makes a tag's reads and its place (None where none is true), and the poses if not the
-#: reads' own.
+#: By name: the function that generates a tag's reads and position (None if no position is right), and
+#: the function that generates the poses, unless they are those of the reads.
 CONDITIONS = {
     "random phases": (nothing(random_phases), None),
     "random phases, hopping": (nothing(random_phases, made.hopping), None),
@@ -121,13 +122,13 @@ def random_strength(rows, rng):
 
 
 def no_strength_law(rng):
-    """Phases and RSSI that say nothing."""
+    """Random phases and random RSSI, without information about the position."""
     rows, _ = tag_on(curve(), made.one_channel, rng)
     return random_strength(random_phases(rows, rng), rng), None
 
 
 CONDITIONS["random phases and RSSI"] = (no_strength_law, None)
-#: Conditions under which strengths are as good as ever, so that methods by strength find the tag.
+#: Conditions that do not affect RSSI, so that methods by RSSI can locate the tag.
 OF_PHASE = ("random phases", "random phases, hopping", "random phases on a rail", "constant phases",
             "wrong sign")
 
@@ -139,7 +140,7 @@ def swapped(antennas):
 
 
 def changed(tags, rng, phase=lambda value, rng: value, rssi=lambda value, rng: value):
-    """Every phase anew, RSSI by tag and antenna."""
+    """Reads with each phase changed, and RSSI changed once per tag and antenna."""
     result = {}
     for tag, rows in tags.items():
         by_antenna = {}
@@ -148,7 +149,7 @@ def changed(tags, rng, phase=lambda value, rng: value, rssi=lambda value, rng: v
     return result
 
 
-#: Antennas at rest: name, whether places are true, what becomes of the reads, and of the antennas.
+#: Fixed antennas, by name: whether positions can be right, and changes to reads and to antennas.
 ROOMS = {
     "at rest, as it is": (True, lambda tags, rng: tags, None),
     "at rest, random RSSI": (False, lambda tags, rng: changed(
@@ -161,7 +162,7 @@ ROOMS = {
 
 
 def room_condition(name, method, references, options):
-    """Claims, false ones, cases: tags in rooms of 20."""
+    """Numbers of claims, false claims and cases, for rooms with 20 tags each."""
     is_true, change, move = ROOMS[name]
     rng = random.Random(f"{options.seed} {name} {references}")
     claims = false = 0
@@ -190,7 +191,7 @@ def is_false(row, place):
 
 
 def localize_condition(name, method, options):
-    """Claims, false ones, cases."""
+    """Numbers of claims, false claims and cases."""
     make, poses = CONDITIONS[name]
     rng = random.Random(f"{options.seed} {name}")
     claims = false = 0
@@ -209,7 +210,7 @@ def localize_condition(name, method, options):
 
 
 def track_random(options):
-    """Random phases past two antennas at rest."""
+    """Tracking from random phases at one fixed antenna."""
     rng = random.Random(f"{options.seed} track")
     claims = 0
     for _ in range(0, options.cases, BATCH):
@@ -227,7 +228,7 @@ def track_random(options):
 
 
 def calibrate_random(options):
-    """Random phases of five reference tags; a case is an antenna."""
+    """Calibration from random phases of five reference tags; each antenna is a case."""
     rng = random.Random(f"{options.seed} calibrate")
     claims = 0
     cases = max(options.cases // 10, 1)

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What tags and antennas cost in the real gzserver, beside the same worlds without the plugins.
+"""Cost of tags and antennas in a real gzserver, compared with the same worlds without plugins.
 
     benchmarks/gazebo_benchmark.py [--seconds 30] [--plugins build/gazebo/lib] [CASE…]
 
-For each case: the time of one antenna update (what physics waits for, and what the thread that makes
-the reads takes beside it), the real-time factor, and the CPU of the whole process in per cent of one
-core. Without ROS master, so no message is sent. Needs scripts/gazebo-root and the plugins, as
-scripts/test or scripts/demo --gazebo make them. BENCHMARK.md has results.
+For each case: the time of one antenna update (separately for the physics thread and for the thread
+that simulates the reads), the real-time factor, and the CPU load of the process in per cent of one
+core. There is no ROS master, so no messages are sent. Needs scripts/gazebo-root and the plugins, as
+built by scripts/test or scripts/demo --gazebo. BENCHMARK.md has results.
 """
 
 import argparse
@@ -24,7 +24,7 @@ import time
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
 IN_GAZEBO = str(TOP / "scripts/in-gazebo")
-# Name: tags as models or as a set, how many, antennas, metres between tags, with plugins.
+# By name: tags as models or as a set, number of tags, antennas, spacing of tags [m], with plugins.
 CASES = {
     "empty": ("models", 0, 0, 1.0, False),
     "models_100_bare": ("models", 100, 1, 0.2, False),
@@ -47,7 +47,7 @@ def plugin(filename, content, with_plugins):
 
 
 def world(kind, tags, antennas, spacing, with_plugins):
-    """Tags on a square grid at 1 m, antennas above its middle, 15 Hz, 7 m of range, 1 ms steps."""
+    """Tags on a square grid at 1 m height, antennas above its centre, 15 Hz, range 7 m, 1 ms steps."""
     parts = ['<?xml version="1.0"?><sdf version="1.6"><world name="default"><physics type="ode">'
              '<max_step_size>0.001</max_step_size>'
              '<real_time_update_rate>1000</real_time_update_rate></physics>']
@@ -81,7 +81,7 @@ def free_port():
 
 
 def simulated_s(env):
-    """Gazebo's clock; None while it does not answer."""
+    """Gazebo's simulation time [s], or None while it does not respond."""
     said = subprocess.run([IN_GAZEBO, "timeout", "20", "gz", "topic", "-e",
                            "/gazebo/default/world_stats", "-d", "1"], env=env, check=False,
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout
@@ -97,7 +97,7 @@ def wait_for_time(env):
 
 
 def process_of(path):
-    """The gzserver that runs this world."""
+    """Process ID of the gzserver that runs this world."""
     for folder in pathlib.Path("/proc").iterdir():
         if folder.name.isdigit():
             words = (folder / "cmdline").read_bytes().split(b"\0")

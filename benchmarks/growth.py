@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How cost grows: families of benchmarks, power laws fitted to them, and their picture.
+"""Scaling of cost: families of benchmarks, power laws fitted to them, and a plot of both.
 
-Figures are {name: CPU time [ms]} and, of whole commands, {name: value}; a curve takes those whose names
-match its pattern, with the number in it as x.
+Figures are {name: CPU time [ms]} and, for complete commands, {name: value}; a curve consists of those
+whose names match its pattern, with the number in the name as x.
 """
 
 import dataclasses
@@ -21,7 +21,7 @@ class Panel:
     across: str  # What x counts.
     up: str
     lines: list  # (label, pattern with one group)
-    by_steps: bool = False  # Each step of x multiplies y, rather than a power of x.
+    by_steps: bool = False  # y grows exponentially with x, instead of by a power law.
 
 
 PANELS = [
@@ -61,7 +61,7 @@ def points_of(pattern, figures):
 
 
 def step_law(points):
-    """What a step of x multiplies y by, by least squares of the logarithm of y, and the last step's."""
+    """The growth factor of y per step of x, by least squares of log y, and that of the last step."""
     mean_x = sum(x for x, _ in points) / len(points)
     spread = sum((x - mean_x) ** 2 for x, _ in points)
     slope = sum((x - mean_x) * math.log(y) for x, y in points) / spread
@@ -70,7 +70,7 @@ def step_law(points):
 
 
 def power_law(points):
-    """(factor, exponent) of y = factor · x^exponent by least squares of the logarithms."""
+    """(factor, exponent) of y = factor · x^exponent, by least squares of the logarithms."""
     logs = [(math.log(x), math.log(y)) for x, y in points]
     mean_x = sum(x for x, _ in logs) / len(logs)
     mean_y = sum(y for _, y in logs) / len(logs)
@@ -80,7 +80,7 @@ def power_law(points):
 
 
 def last_exponent(points):
-    """Between the two largest x, as what is fixed weighs on small ones."""
+    """The exponent between the two largest x, where fixed costs matter least."""
     (x0, y0), (x1, y1) = points[-2:]
     return math.log(y1 / y0) / math.log(x1 / x0)
 
@@ -92,7 +92,7 @@ def law_of(panel, points):
 
 
 def curves(figures):
-    """[(panel, [(label, points, law)])] of those that were measured at three places or more."""
+    """[(panel, [(label, points, law)])] for curves with at least three measured points."""
     found = []
     for panel in PANELS:
         measured = [(label, points_of(pattern, figures)) for label, pattern in panel.lines]
@@ -110,7 +110,7 @@ def short(value):
 
 
 def marks(low, high):
-    """Round numbers on a logarithmic axis: decades, or a few between where there are fewer than two."""
+    """Tick values of a logarithmic axis: decades, and values between them if there are fewer than two."""
     for steps in ((1,), (1, 3), (1, 2, 5), range(1, 10)):
         found = [step * 10.0 ** e for e in range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
                  for step in steps if low * 0.999 <= step * 10.0 ** e <= high * 1.001]

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What RFID costs a gz-sim server: a set of tags, four antennas at 15 Hz, and the same world without both.
+"""Cost of RFID in a gz-sim server: a set of tags and four antennas at 15 Hz, and the world without them.
 
     benchmarks/gz_benchmark.py [--build build/release] [--tags 10000] [--seconds 10] [--runs 3]
                                [--real-time 1]
 
-Prints the wall time of each in turn, as a real-time factor and as a ratio, and what an update of an
-antenna takes of the step. Needs a build with tests and gz-sim (docs/gz.md).
+Prints wall times, real-time factors and their ratio, and the time that an antenna update adds to a
+simulation step. Needs a build with tests and gz-sim (docs/gz.md).
 """
 
 import argparse
@@ -24,7 +24,7 @@ from common import Context  # noqa: E402  pylint: disable=wrong-import-position
 
 
 def world(folder, tags, real_time):
-    """With RFID, and without."""
+    """The world without RFID, and with it."""
     rows = "".join(f"t{i},{0.01 * (i % 100)},{0.01 * (i // 100)},0\n" for i in range(tags))
     table = pathlib.Path(folder) / "tags.csv"
     table.write_text(f"epc,x_m,y_m,z_m\n{rows}", encoding="utf-8")

@@ -1,17 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Localization amid reflections, in halls that nothing was tuned to.
+"""Localization under multipath, in random halls that no method was tuned to.
 
     benchmarks/halls.py [--tagfield build/release/bin/tagfield] [--halls 8] [--first 1] [--seeds 2]
                         [--methods auto,sar,ml] [--pose true|noisy] [--world known|unknown] [--order 2]
                         [--out DIR] [--threads 2]
 
-Halls are drawn at random, from their number alone: size, materials, rows of racks with goods on their shelves,
-pillars, cabinets. A robot with an antenna to each side drives round all rows, past tags on the racks' faces;
-the reader hops between channels, and phases have the π ambiguity. The real command simulates and locates
-(`tagfield bench`). For each method: tags that are located, those of them that are off by over 0.3 m, the
-median and 95 % of errors, the rms of error over expected error, and the mean NEES a degree of freedom.
-auto takes multipath, as a simulated hall is known; --world unknown shows what it tells without that.
+Halls are drawn at random, with their number as seed: size, materials, rows of racks with goods on their
+shelves, cabinets. A robot with an antenna on each side drives around all rows, past tags on the racks'
+faces; the reader hops between channels, and phases have the π ambiguity. `tagfield bench` simulates and
+locates. Columns for each method: located tags, tags among them with an error above 0.3 m, median, 95th
+percentile and maximum of the errors, RMS of error over expected error, and mean NEES per degree of
+freedom. Method auto selects multipath, as the world of a simulated hall is known; --world unknown shows
+its results without this knowledge.
 """
 
 import argparse
@@ -30,16 +31,16 @@ GOODS = ["cardboard", "wood", "plywood", "metal"]
 
 
 class Hall:
-    """Boxes [(name, material, centre, size)], the way of a robot and tags, by a number."""
+    """Boxes [(name, material, centre, size)], the path of a robot, and tags, with a number as seed."""
 
     def __init__(self, number):
         rng = random.Random(f"hall {number}")
         self.boxes = []
         self.rows = rng.choice((2, 2, 3))
-        self.length = rng.uniform(5.0, 12.0)  # Of a row.
+        self.length = rng.uniform(5.0, 12.0)  # Length of a row.
         self.depth = rng.uniform(0.5, 1.2)
         self.aisle = rng.uniform(2.2, 4.5)
-        self.end = rng.uniform(1.8, 3.5)  # From a row's end to the wall.
+        self.end = rng.uniform(1.8, 3.5)  # Distance from a row's end to the wall.
         self.height = rng.uniform(3.0, 6.0)
         self.way = []
         self.tags = []
@@ -67,7 +68,7 @@ class Hall:
             self.add("roof", rng.choice(WALLS), (0, 0, self.height + 0.1), (2 * self.x, 2 * self.y, 0.2))
 
     def add_row(self, rng, row):
-        """Boards and uprights with goods between, set back from the face by some centimetres."""
+        """Boards and uprights with goods between them, set back from the face by some centimetres."""
         y, material = self.middle_of(row), rng.choice(RACKS)
         levels = [0.15, 0.15 + rng.uniform(0.6, 0.9), 0.15 + rng.uniform(1.4, 1.8)]
         for z in levels:
@@ -97,7 +98,7 @@ class Hall:
                      (rng.uniform(-0.8, 0.8) * self.x, side * (self.y - size[1] / 2 - 0.02), size[2] / 2), size)
 
     def drive(self, rng):
-        """Round the rows: down one aisle, up the next, and so on."""
+        """The path around the rows: down one aisle, up the next, and so on."""
         beyond = self.length / 2 + 0.5 * self.end
         middles = [self.middle_of(row) - (self.depth + self.aisle) / 2 for row in range(self.rows)]
         middles.append(-middles[0])
@@ -137,7 +138,7 @@ def antenna_yaml(name, side):
 
 
 def drive_yaml(way, tags, order):
-    """A robot along the way, with its antennas; tags, as lines; and how those are located."""
+    """YAML of a robot on a path with its antennas, of the tags (given as lines), and of the method."""
     (x0, y0), *way = way
     heading = math.atan2(way[0][1] - y0, way[0][0] - x0)
     return f"""robots:
@@ -178,7 +179,7 @@ world:
 
 
 def write_suite(name, scenarios, options, folder):
-    """Of scenarios by the names of their conditions."""
+    """Writes a suite of scenarios, given by the names of their conditions."""
     changes = []
     if options.pose == "noisy":
         changes += ["pose.source: noisy", "pose.sigma_m: 0.01", "pose.yaw_sigma_deg: 0.5", "pose.time_constant_s: 5"]
@@ -216,7 +217,7 @@ def print_row(name, rows):
 
 
 def print_table(path, methods):
-    """What `tagfield bench` wrote of each tag, by method and condition, and by method."""
+    """Prints statistics from a tags table of `tagfield bench`, by method and condition, and by method."""
     with open(path, newline="") as table:
         rows = list(csv.DictReader(table))
     print(f"{'':24} {'located':>12} {'wrong':>5} {'median':>8} {'95 %':>8} {'max mm':>8} {'err/exp':>8} {'NEES/dof':>8}")

@@ -1,15 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What a live world costs under load: readers that read as fast as they can, told to LLRP, WebSocket
-and MQTT clients at once.
+"""Cost of a live world under load, with readers at their maximum rate and many clients.
 
     benchmarks/live_load.py [--tags 10000] [--readers 4] [--seconds 20] [--watchers 100]
 
-Starts mosquitto and 'tagfield serve' in real time, an LLRP client a reader that asks for its fastest
-mode (FM0, 640 kHz) and a report for each tag, one WebSocket and one MQTT subscriber, and prints reads a
-second of each, the pace against real time, and the server's share of a core. Watchers are so many more
-WebSocket clients, every other one of which never reads what it gets. Needs mosquitto, mosquitto-clients and
-python3-websocket.
+Starts mosquitto and 'tagfield serve' in real time, one LLRP client per reader that selects the fastest
+mode (FM0, 640 kHz) and a report per tag read, one WebSocket client and one MQTT subscriber. Prints the
+reads per second that each client receives, the speed relative to real time, the server's CPU load in
+cores, and its memory. --watchers adds WebSocket clients, every other one of which never reads its
+socket. Needs mosquitto, mosquitto-clients and python3-websocket.
 """
 
 import argparse
@@ -40,7 +39,7 @@ def free_port():
 
 
 def write_scenario(path, tags, readers):
-    """Readers 100 m apart, each before a wall of tags 2 to 4 m away."""
+    """Readers 100 m apart, each facing a wall of tags at a distance of 3 m."""
     lines = ["name: load", "model: link_budget", "duration_s: 1",
              f"tag_profile: {SOURCE}/profiles/tags/monza_r6.yaml", "antennas:"]
     for i in range(readers):
@@ -73,7 +72,7 @@ def ro_spec():
 
 
 class Counter(threading.Thread):
-    """Counts what a client gets, until the server goes."""
+    """Counts the reads that a client receives, until the server ends."""
 
     def __init__(self, follow):
         super().__init__(daemon=True)
@@ -96,7 +95,7 @@ def llrp_reads(port):
     while True:
         kind, body = reader.receive()
         if kind == 61:
-            yield body.count(b"\x8d\x30\x34")  # EPC-96, and how all of these EPCs begin
+            yield body.count(b"\x8d\x30\x34")  # header of an EPC-96 parameter, and the common prefix of these EPCs
 
 
 def frames_of(port):
@@ -111,7 +110,7 @@ def frame_reads(port):
 
 
 def watch(clients):
-    """Takes what every other one gets, unread."""
+    """Receives and discards the data of every other client."""
     while readable := select.select([client.sock for client in clients[::2]], [], [], 5)[0]:
         for one in readable:
             if not one.recv(1 << 20):

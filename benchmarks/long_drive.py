@@ -5,10 +5,11 @@
     benchmarks/long_drive.py [--tagfield build/release/bin/tagfield] [--hours 0.1 0.25 1] [--tags-an-hour 5000]
                              [--range 4] [--methods joint ml] [--threads 2] [--mcap]
 
-A robot drives up and down aisles of 40 m, 3.5 m apart, at 0.3 m/s past tags at both sides, read 15 times a
-second within 4 m or as told; its believed pose wanders by 3 cm. Prints a row a run: hours, tags, reads, method, CPU and
-wall time, peak memory, how many tags are located, and the mean NEES an axis with the shift that all tags
-share taken out. With --mcap the same from the run's MCAP file, whose poses by tf are those that it believed.
+A robot drives up and down aisles of 40 m, 3.5 m apart, at 0.3 m/s past tags on both sides, which are read
+15 times per second within --range; its believed pose has an error of 3 cm. Prints one row per run: hours,
+tags, reads, method, CPU and wall time, peak memory, number of located tags, and the mean NEES per axis
+after subtraction of the mean error. With --mcap, also localizes from the run's MCAP file, whose poses by
+tf are the believed ones.
 """
 
 import argparse
@@ -64,7 +65,7 @@ def localized(command):
 
 
 def nees(estimates, truth):
-    """Mean NEES in x and y of located tags, the mean error taken out."""
+    """Number of located tags, and their mean NEES in x and y after subtraction of the mean error."""
     with open(truth, encoding="utf-8") as table:
         places = {row["tag"]: row for row in csv.DictReader(table)}
     with open(estimates, encoding="utf-8") as table:

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Peak memory of long runs: a hall with many tags, hour after hour, written as it goes.
+"""Peak memory of long runs: a hall with many tags, hour after hour, with results written continuously.
 
     benchmarks/long_run.py [--tagfield build/release/bin/tagfield] [--hours 1 10] [--tags 10000]
 
-Two portals with an antenna each read what is within 7 m, and a robot with a third one drives its round
-again and again. Prints a row a run: hours, tags, reads, size of the tables, peak memory, time.
+Two portals with one antenna each read tags within 7 m, and a robot with a third antenna drives the same
+loop repeatedly. Prints one row per run: hours, tags, reads, size of the tables, peak memory, time.
 """
 
 import argparse
@@ -17,7 +17,7 @@ import tempfile
 import time
 
 ROUND = [(-20, -10), (20, -10), (20, 10), (-20, 10)]
-ROUND_S = 120.0 / 0.5 + 20.0  # its length at its speed, and turning
+ROUND_S = 120.0 / 0.5 + 20.0  # length over speed, plus time for turning
 
 
 def write_scenario(folder, hours, tags):
@@ -65,7 +65,7 @@ def main():
     parser.add_argument("--tags", type=int, default=10_000)
     arguments = parser.parse_args()
     print("hours   tags      reads  tables [MB]  peak [MB]  time [s]")
-    for hours in sorted(arguments.hours):  # The peak is that of the largest child so far.
+    for hours in sorted(arguments.hours):  # Sorted, as ru_maxrss is that of the largest child so far.
         count, size, seconds = measured(arguments.tagfield, hours, arguments.tags)
         peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
         print(f"{hours:5g} {arguments.tags:6d} {count:10d} {size / 1e6:12.1f} {peak:10.1f} {seconds:9.1f}",

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tables of reads and poses made from the equations alone, for campaigns over the real command.
+"""Synthetic tables of reads and poses, generated from equations, for tests of the commands.
 
-Nothing here is the project's: phase = 4 pi r/lambda + offset + noise, of a tag at rest or in motion,
-read by an antenna on a way. Also the Cramer-Rao bound of such reads.
+Independent of the simulator: phase = 4 pi r/lambda + offset + noise, for a static or moving tag that is
+read by an antenna on a path. Also the Cramér-Rao bound of such reads.
 """
 
 import cmath
@@ -18,7 +18,7 @@ TURN = 2 * math.pi
 
 
 def rail(stops=50, step=0.02, time_apart=0.2):
-    """Times and places along a straight rail."""
+    """Times and positions along a straight rail."""
     return [(i * time_apart, (i * step, 0.0)) for i in range(stops)]
 
 
@@ -37,30 +37,30 @@ def one_channel(way, _random):
 
 
 def sequential(way, _random):
-    """The whole way on one channel after the other, in order of time."""
+    """Passes along the complete path, one per channel, in order of time."""
     last = way[-1][0] + 1.0
     return [(t + last * c, p, carrier) for c, carrier in enumerate(RAIL_CHANNELS) for t, p in way]
 
 
 def interleaved(way, _random):
-    """From read to read the next channel."""
+    """The channel changes from read to read."""
     return [(t, p, RAIL_CHANNELS[i % len(RAIL_CHANNELS)]) for i, (t, p) in enumerate(way)]
 
 
 def all_at_each(way, _random):
-    """At each place all channels."""
+    """All channels at each position."""
     return [(t + 0.01 * c, p, carrier) for t, p in way for c, carrier in enumerate(RAIL_CHANNELS)]
 
 
 def hopping(way, random, dwell=0.4):
-    """FCC: the next of 50 channels each 0.4 s."""
+    """FCC hopping: the next of 50 channels every `dwell` seconds."""
     order = FCC[:]
     random.shuffle(order)
     return [(t, p, order[int(t / dwell) % len(order)]) for t, p in way]
 
 
 def offsets_of(random):
-    """Of each channel one of its own, drawn when it is first asked for."""
+    """Phase offsets by channel, each drawn at its first use."""
     drawn = {}
     return lambda carrier: drawn.setdefault(carrier, random.uniform(0, TURN))
 
@@ -98,8 +98,8 @@ def stepped(rows):
 
 
 def write(folder, tags, poses=None):
-    """reads.csv and poses.csv of `tags` (rows by ID), in order of time; `poses`: (t, p), or those of
-    the rows."""
+    """Writes reads.csv and poses.csv of `tags` (rows by ID), in order of time; `poses` are (t, p), by
+    default those of the rows."""
     folder = pathlib.Path(folder)
     with open(folder / "reads.csv", "w", encoding="utf-8") as file:
         out = csv.writer(file)
@@ -117,8 +117,8 @@ def write(folder, tags, poses=None):
 
 
 def write_room(folder, tags, antennas, references=None):
-    """Likewise of antennas at rest: rows (t, antenna, carrier, phase, rssi); places of antennas by name,
-    and of tags at known places, into references.csv."""
+    """Likewise for fixed antennas, with rows (t, antenna, carrier, phase, rssi) and positions of antennas
+    by name; positions of reference tags are written to references.csv."""
     folder = pathlib.Path(folder)
     with open(folder / "reads.csv", "w", encoding="utf-8") as file:
         out = csv.writer(file)
@@ -140,8 +140,8 @@ def write_room(folder, tags, antennas, references=None):
 
 
 def read_in_room(places, antennas, random, sigma=0.1, fading=3.0):
-    """Rows of tags that antennas at rest read twice on each of 50 channels, whose offsets are each
-    port's own; RSSI fades by antenna and tag."""
+    """Rows of tags that each fixed antenna reads twice on each of 50 channels, with phase offsets per
+    antenna and channel; RSSI has a fading term per antenna and tag."""
     offsets = {name: offsets_of(random) for name in antennas}
     tags = {}
     for tag, place in places.items():
@@ -167,7 +167,7 @@ def estimates(folder):
 
 
 def localize(program, folder, *arguments):
-    """The estimates, and what the command said."""
+    """The estimates and the output of the command."""
     folder = pathlib.Path(folder)
     result = subprocess.run([program, "localize", folder / "reads.csv", "--poses",
                              folder / "poses.csv", "--out", folder / "out", *arguments],
@@ -176,7 +176,7 @@ def localize(program, folder, *arguments):
 
 
 def bound_trace(rows, place, sigma):
-    """Trace of the Cramer-Rao bound of x and y [m^2], an offset of each channel unknown."""
+    """Trace of the Cramér-Rao bound of x and y [m²], with an unknown phase offset per channel."""
     channels = {}
     for _, p, carrier, *_ in rows:
         channels.setdefault(carrier, []).append(p)
@@ -195,7 +195,7 @@ def bound_trace(rows, place, sigma):
 
 
 def echoed(rows, place, echo, strength):
-    """Phases and RSSI of a tag whose field comes by a second path as well."""
+    """Phases and RSSI of a tag with a second propagation path from the image `echo`."""
     changed = []
     for t, p, carrier, phase, rssi in rows:
         k = TURN * carrier / C

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Frames of the page of 'tagfield serve', with more and more tags.
+"""Frame times of the page of 'tagfield serve', with an increasing number of tags.
 
     page_frames.py --tagfield PROGRAM --build BUILD_DIR [--tags 0 1000 10000]
 
-A mock server (adapters/http/page/test/mock.mjs) goes round a real run with that many tags more, a
-thousand reads a second of them. Frames are asked for without a pause for eight seconds. Printed for
-each: the page's own time for a frame (median and 95th percentile [ms]: all that JavaScript does,
-drawing's commands included, without what the GPU does then), draw calls, and frames a second as
-drawn here, by SwiftShader on the processor: a GPU is what people have.
+A mock server (adapters/http/page/test/mock.mjs) replays a real run in a loop with --tags additional
+tags, which have a thousand reads per second. Frames are requested without a pause for eight seconds.
+Prints for each number of tags: the page's own time per frame (median and 95th percentile [ms] of all
+JavaScript, including drawing commands but not their execution by the GPU), draw calls, and frames per
+second with software rendering by SwiftShader, which is slower than a GPU.
 """
 
 import argparse

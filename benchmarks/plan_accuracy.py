@@ -1,14 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Forecasts of plans against full simulations of their layouts: in how many cases is what is read within the
-range that was stated with 95 % confidence?
+"""Coverage of the 95 % intervals that plans forecast, checked by full simulations of their layouts.
 
     benchmarks/plan_accuracy.py [--tagfield PROGRAM] [--cases N] [--first N] [--aim probability|reads|position]
 
-Each case is a hall drawn at random: volumes of tags of a kind, mounts on the ceiling or the walls, how many
-antennas, the reader's session and plan, the time, with or without diffuse waves or reflections. Each is planned
-and its layout is run once in full, with tags, hops and slots that the plan has not seen. With another aim than a
-probability, tags count that have from 2 to 20 reads, or that can be located to within 0.1 to 2 m.
+Each case is a random hall: volumes of tags, mounts on the ceiling or the walls, number of antennas, session
+and channel plan of the reader, duration, with or without diffuse fields or reflections. Each is planned, and
+its layout is run once in full with other random tags, hops and slots. With --aim reads or position, the
+counted tags are those with 2 to 20 reads, or those that can be located to within 0.1 to 2 m.
 """
 
 import argparse
@@ -36,7 +35,7 @@ def tags_of(draw, number, room):
 
 
 def scenario_of(case):
-    """Written as JSON, which is YAML."""
+    """The random scenario of a case; it is written as JSON, which is valid YAML."""
     draw = random.Random(case)
     room = (draw.uniform(4.0, 12.0), draw.uniform(4.0, 9.0), draw.uniform(2.5, 5.0))
     reader = {"profiles": ["speedway_r420", "panel_6dbi"], "channel_plan": draw.choice(PLANS),

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What Python costs: reads to NumPy, one link, a batch of links, seeds in parallel.
+"""Cost of the Python package: reads to NumPy, one link, a batch of links, seeds in parallel.
 
-Times of the processor, the least of several, but of seeds in parallel, which are the clock's.
+Prints CPU times, each the minimum of several; for seeds in parallel wall times.
 
     PYTHONPATH=build/release/lib/python benchmarks/python_costs.py [--reads N]
 """
@@ -17,7 +17,7 @@ import tagfield
 
 
 def seconds(work, repeats=7):
-    """The least processor time of a call, in this thread."""
+    """The minimum CPU time of a call, in this thread."""
     times = []
     for _ in range(repeats):
         begin = time.thread_time()
@@ -27,7 +27,7 @@ def seconds(work, repeats=7):
 
 
 def clock_seconds(work, repeats=3):
-    """The least time of a call by the clock."""
+    """The minimum wall time of a call."""
     times = []
     for _ in range(repeats):
         begin = time.perf_counter()
@@ -37,7 +37,7 @@ def clock_seconds(work, repeats=3):
 
 
 def many_reads(count):
-    """A run of at least so many reads: a paper antenna amid a thousand tags."""
+    """A scenario with at least `count` reads: an antenna with the paper's model and a thousand tags."""
     places = np.random.default_rng(1).uniform([-5, -5, 0.5], [5, 5, 2], (1000, 3))
     return tagfield.Scenario(
         "reads", model="paper", duration_s=1.05 * count / 15 / 1000,
@@ -64,7 +64,7 @@ def main():
     reads = run.reads
     sim = many_reads(count).simulation()
     while not sim.finished:
-        sim._core.step(1000)  # All reads are in C++ then, and handed over at once.
+        sim._core.step(1000)  # Keeps all reads in C++, so that take() converts them at once.
     begin = time.thread_time()
     told = sim._core.take()["reads"]
     handed_s = time.thread_time() - begin

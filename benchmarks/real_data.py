@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Locates the tags of public measurements with one command an experiment, and judges by their truth.
+"""Locates the tags of public datasets with one command per experiment, and compares with the ground truth.
 
     benchmarks/real_data.py [--tagfield build/release/bin/tagfield] [--data ../shared/data/real]
                             [--methods auto,sar] [--side=+y] [--calibration]
 
-Prints for each experiment of AdaRF and each method how many tags got a place, the median and 95 % of
-their errors, and the root mean square of error over expected error; with --calibration the same with
-a calibration by all other experiments, and whether that helps. Then the portal's tags and walks. Says so,
-and ends well, where the data are not there. Needs the programs tar and zstd.
+Prints for each experiment of AdaRF and each method the number of located tags, median, mean and 95th
+percentile of their errors, and the root mean square of error over expected error; with --calibration
+also with a calibration from all other experiments. Then the tags and walks of the portal dataset. If the
+data are missing, it prints that and exits with 0. Needs the programs tar and zstd.
 """
 
 import argparse
@@ -24,7 +24,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 def truth_of(data):
-    """Places by experiment and tag: along the rail and away from it [m]."""
+    """Positions by experiment and tag: along the rail and distance from it [m]."""
     places = {}
     with open(data / "adarf/truth.csv", encoding="utf-8") as file:
         for row in csv.DictReader(file):
@@ -34,14 +34,14 @@ def truth_of(data):
 
 
 def unpacked(archive, folder):
-    """The folder with the experiment's tables."""
+    """Unpacks an archive and returns the folder with the experiment's tables."""
     pathlib.Path(folder).mkdir()
     subprocess.run(["tar", "--zstd", "-xf", archive, "-C", folder], check=True)
     return next(path.parent for path in pathlib.Path(folder).rglob("*.csv"))
 
 
 def located(program, experiment, out, arguments):
-    """Best candidates of located tags by ID: x, y and the expected error; and the rail's y."""
+    """Positions (x, y) and expected errors of located tags by ID, and the rail's y."""
     subprocess.run([program, "localize", experiment, "--format", "adarf", "--out", out, *arguments],
                    check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     with open(pathlib.Path(out) / "antenna_poses.csv", encoding="utf-8") as file:
@@ -56,7 +56,7 @@ def located(program, experiment, out, arguments):
 
 
 def judged(places, rail, truth):
-    """Error and expected error of each tag with a place and a truth."""
+    """Error and expected error of each located tag with ground truth."""
     return [(math.hypot(x - truth[tag][0], abs(y - rail) - truth[tag][1]), expected)
             for tag, (x, y, expected) in places.items() if tag in truth]
 
@@ -74,14 +74,14 @@ def line_of(name, outcomes, tags):
 
 
 def rail_of(experiment):
-    """Where the rail is in y and z, which are constants without meaning."""
+    """The rail's y and z, which are arbitrary constants in the dataset."""
     with open(sorted(experiment.glob("*.csv"))[0], encoding="utf-8-sig") as file:
         row = next(csv.DictReader(file))
     return float(row["y"]), float(row["z"])
 
 
 def calibrated_by_others(program, name, experiments, truth, folder):
-    """The profile that all other experiments tell, or none where nothing carries over."""
+    """The calibration profile from all other experiments, or None if the calibration fails."""
     arguments = []
     for other, path in experiments.items():
         if other == name:
@@ -123,7 +123,7 @@ def adarf(options, truth):
 
 
 def portal(options):
-    """The tags of a portal of four antennas, and the walks past it."""
+    """Evaluates the static tags of a portal with four antennas, and the walks through it."""
     folder_of_data = options.data / "portal"
     if not folder_of_data.is_dir():
         return

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs all benchmarks and makes their page: curves of how cost grows, with fitted exponents, and all figures.
+"""Runs all benchmarks and writes a page with scaling curves, fitted exponents and all figures.
 
     benchmarks/run_all.py [--quick] [--only NAME…] [--out build/bench] [--keep]
 
-Each program runs between two runs of a loop that never changes (calibration_benchmark); CPU times are
-compared with those of the last release (benchmarks/last_release.json) as ratios to that loop, so that
-another machine doesn't matter much. Writes figures.json, curves.svg and index.html into --out. --keep
-writes the figures as the last release's. scripts/bench builds what this needs.
+Each program runs between two runs of a fixed loop (calibration_benchmark); CPU times are compared with
+those of the last release (benchmarks/last_release.json) as ratios to that loop, so that the machine
+matters little. Writes figures.json, curves.svg and index.html into --out. --keep stores the ratios as
+those of the last release. scripts/bench builds the programs.
 """
 
 import argparse
@@ -26,11 +26,11 @@ TOP = pathlib.Path(__file__).resolve().parent.parent
 RELEASE = TOP / "benchmarks/last_release.json"
 PROGRAMS = ("simulation", "radio", "propagation", "gen2", "laser", "localization", "files", "navigation")
 MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
-CHANGED = 1.2  # A ratio beyond this, or below its inverse, is named.
+CHANGED = 1.2  # Ratios above this, or below its inverse, are listed.
 
 
 def run_program(bin_folder, name, min_time):
-    """The rows of a program of Google Benchmark."""
+    """Runs a Google Benchmark program and returns its rows."""
     out = bin_folder.parent / f"{name}_benchmark.json"
     with open(os.devnull, "w", encoding="utf-8") as nowhere:
         subprocess.run([bin_folder / f"{name}_benchmark", f"--benchmark_out={out}",
@@ -46,7 +46,7 @@ def milliseconds(row):
 
 
 def figures_of(rows):
-    """{name: CPU time [ms]}; under further names what curves take from it."""
+    """{name: CPU time [ms]}, with some figures repeated under the names that curves use."""
     figures = {row["name"]: milliseconds(row) for row in rows}
     for row in rows:
         settings = dict(re.findall(r"(\w+):(\d+)", row["name"]))
@@ -60,7 +60,7 @@ def figures_of(rows):
 
 
 def table_of(script, *arguments):
-    """Rows of numbers and words that a script prints below its head."""
+    """Rows, split into words, that a script prints below its header line."""
     printed = subprocess.run([TOP / "benchmarks" / script, *map(str, arguments)], check=True,
                              stdout=subprocess.PIPE, text=True).stdout
     return [line.replace(",", "").split() for line in printed.strip().split("\n")[1:]]
@@ -81,7 +81,7 @@ def command_figures(quick):
 
 
 def measure(bin_folder, names, quick):
-    """({name: figure}, {name: ratio to the calibration loop})"""
+    """({name: figure}, {name: ratio to the calibration loop})."""
     figures, ratios = {}, {}
     min_time = 0.1 if quick else 0.5
     loop = milliseconds(run_program(bin_folder, "calibration", 0.5)[0])
@@ -101,7 +101,7 @@ def progress(what):
 
 
 def compared(ratios):
-    """Lines that say what takes longer or shorter than in the last release."""
+    """Lines that list what is slower or faster than in the last release."""
     if not RELEASE.exists():
         return ["no figures of a release to compare with (--keep writes them)"]
     before = json.loads(RELEASE.read_text(encoding="utf-8"))

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Shards of a sweep killed at random and started again: nothing lost, nothing done twice.
+"""Kills shards of a sweep at random and resumes them: no run may be lost or repeated.
 
     benchmarks/sweep_kills.py [--tagfield build/release/bin/tagfield] [--kills 50] [--shards 3]
                               [--seed 1] [--save-every 0.2] [SUITE]
 
-Runs the suite whole; then its shards, all at once, each killed (SIGKILL) and started again at random
-until so many kills have hit; then merges. Prints how many runs were done, how many twice, and whether
-each file of results has the same bytes. Ends with 1 where not.
+Runs the complete suite without interruption; then its shards in parallel, which are killed (SIGKILL) at
+random and resumed, --kills times at most; then merges them. Prints how many runs are lost, how many were
+done twice, and which result files differ from those of the first sweep. The exit code is 1 unless all
+is as it should be.
 """
 
 import argparse
@@ -35,7 +36,7 @@ def arguments():
 
 
 class Shards:
-    """The shards as processes."""
+    """The processes of the shards."""
 
     def __init__(self, args, folder):
         self.args = args
@@ -60,7 +61,7 @@ class Shards:
                 self.done.add(shard)
 
     def kill_one(self, chance):
-        """Whether there was one to kill."""
+        """Kills a random running shard; returns False if none is running."""
         self.reap()
         if not self.running:
             return False
@@ -71,7 +72,7 @@ class Shards:
 
 
 def killed_and_resumed(args, folder):
-    """How many kills hit before all was done."""
+    """Runs all shards to the end, with kills, and returns the number of kills."""
     chance = random.Random(args.seed)
     shards = Shards(args, folder)
     kills = 0

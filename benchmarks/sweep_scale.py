@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What many nodes ask of the file system that they share, modelled and simulated.
+"""Load of a sweep's nodes on a shared file system, modelled as queues and simulated.
 
     benchmarks/sweep_scale.py [--runs 1000000] [--run-s 0.3] [--metadata-per-s 10000]
                               [--writes-per-s 5000] [--start-s 0.3] [--save-every-s 5]
@@ -9,15 +9,15 @@
 
 Without --merge: a queue of metadata operations and one of small synchronous writes, each served at a
 constant rate, and N nodes that start within a second, do their share of the runs and end. For three ways
-to keep results (a file for each run; each result appended at once, all logs read at the start; as
-`tagfield sweep` does) it prints files, operations, and the efficiency: the time that runs alone would
-take over the time until the last node is done. How a run's time scatters: uniformly by ±50 %.
+to store results (one file per run; each result appended at once, with all logs read at the start; as
+`tagfield sweep` does) it prints files, operations, and the efficiency: the time that the runs alone would
+take over the time until the last node is done. The duration of a run is uniformly distributed by ±50 %.
 
-With --merge: makes so many logs of real runs, under other keys, and takes the time of a merge.
+With --merge: generates LOGS logs from the results of a few real runs, and measures a merge of them.
 
-With --efficiency: so many seeds of the paper's warehouse by one process and by two at the same time, as
-shards and under mpirun. Efficiency is by CPU time, so that other work on the machine counts little: that of
-the one process over twice that of the busier of the two. Also says what a million runs would take.
+With --efficiency: runs SEEDS seeds of the paper's warehouse in one process and in two at the same time, as
+shards and under mpirun. Efficiency is by CPU time, so that other load on the machine matters little: that
+of the one process over twice that of the busier of the two. Also prints core hours for a million runs.
 """
 
 import argparse
@@ -35,8 +35,8 @@ import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 NODES = (1, 10, 100, 1000, 10_000)
-# Metadata operations at a start: the program and its libraries are taken to be on the node; suite,
-# scenario, world and models (some 15 files), sweep.json, the folder's list, the log.
+# Metadata operations at a start: suite, scenario, world and models (some 15 files), sweep.json, the
+# folder listing, the log. The program and its libraries are assumed to be local to the node.
 START_OPERATIONS = 25
 SEED = re.compile(r'"seed":\d+')
 
@@ -57,7 +57,7 @@ def arguments():
 
 
 class Queue:
-    """Serves one operation after another, in the order in which they come."""
+    """Serves one operation after another, in order of arrival."""
 
     def __init__(self, per_s):
         self.each_s = 1.0 / per_s
@@ -65,19 +65,19 @@ class Queue:
         self.count = 0
 
     def serve(self, now_s, operations=1):
-        """When so many operations that come now are done."""
+        """The time at which operations that arrive now are completed."""
         self.count += operations
         self.free_s = max(self.free_s, now_s) + operations * self.each_s
         return self.free_s
 
 
 def simulate(args, way, nodes):
-    """Efficiency, files, operations of both kinds."""
+    """Efficiency, time until the last node is done [s], files, metadata operations and writes."""
     metadata, writes = Queue(args.metadata_per_s), Queue(args.writes_per_s)
     chance = random.Random(1)
     share = [args.runs // nodes + (1 if i < args.runs % nodes else 0) for i in range(nodes)]
     start_operations = START_OPERATIONS + (nodes if way == "all logs read" else 0)
-    # A save of what came together: so many runs, each an event of its own.
+    # Number of runs per save; each save is an event.
     each = {"file a run": 1, "all logs read": 1}.get(way, max(1, round(args.save_every_s / args.run_s)))
     events = [(chance.random(), i, -1) for i in range(nodes)]
     heapq.heapify(events)
@@ -89,7 +89,7 @@ def simulate(args, way, nodes):
             heapq.heappush(events, (ready_s, node, share[node]))
             continue
         if left < share[node] or left == 0:
-            if way == "file a run":  # Make, write through, rename.
+            if way == "file a run":  # Create, sync, rename.
                 now_s = writes.serve(metadata.serve(now_s, 2))
             else:
                 now_s = writes.serve(now_s)
@@ -97,7 +97,7 @@ def simulate(args, way, nodes):
             end_s = max(end_s, now_s)
             continue
         count = min(each, left)
-        # The sum of many scatters little.
+        # The relative scatter of a sum of many runs is small.
         spent_s = args.run_s * (count + (chance.random() - 0.5) * count ** 0.5)
         heapq.heappush(events, (now_s + spent_s, node, left - count))
     files = args.runs if way == "file a run" else nodes
@@ -123,7 +123,7 @@ def suite_text(points, seeds):
 
 
 def forge(folder, suite, args, points, seeds):
-    """Logs as so many shards would have left them, from the results of a few runs."""
+    """Writes synthetic logs as of args.merge shards, from the results of a few runs."""
     subprocess.run([args.tagfield, "sweep", suite, "--shard", f"1/{points * seeds // 4}", "--out", folder],
                    check=True, stdout=subprocess.DEVNULL)
     made = next((folder / "shards").rglob("*.log"))
@@ -169,7 +169,7 @@ def print_merge(args):
 
 
 def cpu_seconds_of(commands):
-    """CPU time of each command with all that it starts, all run at the same time."""
+    """CPU time of each command including its child processes; all run at the same time."""
     code = ("import resource, subprocess, sys; code = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL)"
             ".returncode; used = resource.getrusage(resource.RUSAGE_CHILDREN); "
             "print(used.ru_utime + used.ru_stime); sys.exit(code)")

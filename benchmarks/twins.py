@@ -1,17 +1,17 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Synthetic twins of real data: reads made from the equations, located by the real command, and
-judged by the bound of that very data.
+"""Synthetic twins of real data: reads generated from equations, located by the command, and compared
+with the Cramér-Rao bound of the same data.
 
     benchmarks/twins.py [--tagfield build/release/bin/tagfield] [--tags 40] [--seed 1]
                         [--method auto] [--conditions rail sequential,…] [--pose-sigma 0]
     benchmarks/twins.py --write DIR [--tags 40] [--seed 1] [--method auto,sar] …
 
-For each condition: how many tags were located, the root mean square of error over the Cramer-Rao
-bound's deviation (of outliers: of the reads that are none), and how many are off by over five times
-what was expected. Of N tags the ratio of an efficient estimator is 1 ± 1/sqrt(2 N) or so. With --write
-nothing is located: the same reads become recordings in DIR, with the suite of `tagfield bench
-DIR/suite.yaml`.
+Prints for each condition: the number of located tags, the root mean square of error over the standard
+deviation of the Cramér-Rao bound (which is computed without outliers), that of error over expected
+error, and how many errors exceed five times the expected error. For N tags, an efficient estimator has
+a ratio to the bound of about 1 ± 1/sqrt(2 N). With --write, nothing is located: the same reads are
+written as recordings to DIR, with a suite for `tagfield bench DIR/suite.yaml`.
 """
 
 import argparse
@@ -48,7 +48,7 @@ def stepped(rows, _rng):
     return made.stepped(rows), rows
 
 
-#: Name: the way, the visits along it, what is done to the reads.
+#: By name: the function that assigns channels to the positions of a path, and the change to the reads.
 CONDITIONS = {
     "one channel": (made.one_channel, plain),
     "sequential": (made.sequential, plain),
@@ -71,7 +71,7 @@ def place_beside(way, rng):
 
 
 def twin(way, name, options):
-    """Rows and places by tag, and the bound's deviation of each."""
+    """Rows and positions by tag, and the standard deviation of each tag's bound."""
     visit, change = CONDITIONS[name]
     rng = random.Random(f"{options.seed} {way} {name}")
     tags, bounds, places = {}, {}, {}
@@ -86,7 +86,7 @@ def twin(way, name, options):
 
 
 def write(way, name, options):
-    """The recording as files; gives back its condition in the suite."""
+    """Writes the recording to files and returns its condition for the suite."""
     label = f"{way} {name}"
     tags, places, _ = twin(way, name, options)
     folder = label.replace(" %", "_percent").replace(" ", "_")
@@ -108,7 +108,7 @@ def write_suite(conditions, options):
 
 
 def run(program, way, name, options):
-    """Errors over the bound's deviation, errors over the expected one, and the method's name."""
+    """Errors over the bound's standard deviation, errors over expected errors, and the method's name."""
     tags, places, bounds = twin(way, name, options)
     area = ["--side=+y"] if way == "rail" else []
     sigma = [] if options.pose_sigma is None else ["--pose-sigma", str(options.pose_sigma)]

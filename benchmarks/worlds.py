@@ -1,17 +1,17 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Localization amid reflections, in worlds of others.
+"""Localization under multipath, in third-party worlds.
 
     PYTHONPATH=build/release/lib/python benchmarks/worlds.py WORLD… [--model-path DIR]
         [--tagfield build/release/bin/tagfield] [--drives 4] [--tags 10] [--before 0.01 0.2] [--seeds 1]
         [--methods auto] [--pose true|noisy] [--order 2] [--out DIR] [--threads 2]
 
-In each world (SDF) a robot with an antenna to each side drives --drives routes of two straight legs through what
-is free of solids, drawn at random from the world's name and the route's number; --tags tags stand 1 to 20 cm (--before)
-before surfaces that the route passes within 0.6 to 3 m with nothing between. The reader hops between channels, and
-phases have the π ambiguity. The real command simulates and locates (`tagfield bench`); columns are those of
-benchmarks/halls.py. With --pose noisy the believed pose wanders by 1 cm and 0.5°, of which the methods are not told.
-auto takes multipath, as a simulated world is known; --methods robust shows what is told without that.
+In each world (SDF), a robot with an antenna on each side drives --drives random routes of two straight legs through
+free space, with the world's name and the route's number as seed. --tags tags are 1 to 20 cm (--before) in front of
+surfaces that the route passes within 0.6 to 3 m in line of sight. The reader hops between channels, and phases have
+the π ambiguity. `tagfield bench` simulates and locates; the columns are those of benchmarks/halls.py. With --pose
+noisy, the believed pose has an error of 1 cm and 0.5°, which is not stated to the methods. Method auto selects
+multipath, as a simulated world is known; --methods robust shows results without this knowledge.
 """
 
 import argparse
@@ -28,12 +28,12 @@ import tagfield
 import halls
 
 CELL_M = 0.05
-CLEARANCE_M = 0.35  # The robot's half width and a bit.
+CLEARANCE_M = 0.35  # Half the robot's width, plus a margin.
 MARGIN_M = 0.5  # Beyond the outermost solid.
 
 
 class Floor:
-    """Cells that hold something between 0.2 and 2 m above the floor, and the outlines around it."""
+    """Grid of cells occupied by solids between 0.2 and 2 m above the floor, and the solids' outlines."""
 
     def __init__(self, world, model_path):
         scenario = tagfield.load(write_probe(world, model_path), allow_outside=True, skip_missing=True)
@@ -48,7 +48,7 @@ class Floor:
             self.fill(ring)
 
     def fill(self, ring):
-        """Even-odd rule over the cells' middles, and every cell that the ring itself goes through."""
+        """Marks cells whose centres are inside the ring (even-odd rule), and all cells on the ring."""
         for p, q in zip(ring, np.roll(ring, -1, axis=0)):
             steps = max(2, int(np.hypot(*(q - p)) / (0.4 * CELL_M)))
             cells = self.cells(p + np.linspace(0, 1, steps)[:, None] * (q - p))
@@ -69,7 +69,7 @@ class Floor:
         return ((points - self.low) / CELL_M).astype(int)
 
     def is_free(self, p, q, radius=0.0):
-        """Whether a disc goes from p to q."""
+        """Whether a disc can move straight from p to q without touching an occupied cell."""
         way = q - p
         length = np.hypot(*way)
         along = p + np.linspace(0, 1, max(2, int(length / CELL_M) + 1))[:, None] * way
@@ -91,7 +91,7 @@ def world_yaml(world, model_path):
 
 
 def write_probe(world, model_path):
-    """A scenario with the world and nothing that matters."""
+    """Writes a minimal scenario with the world, from which its outlines are loaded."""
     path = pathlib.Path(tempfile.mkdtemp()) / "probe.yaml"
     path.write_text(f"""name: probe
 {world_yaml(world, model_path)}
@@ -103,7 +103,7 @@ tags: [{{id: t, position: [1, 1, 1]}}]
 
 
 def draw_route(floor, rng):
-    """Two legs of 2 to 6 m, or None."""
+    """A random route of two legs of 2 to 6 m, or None if none was found."""
     upper = floor.low + np.array(floor.taken.shape) * CELL_M
 
     def anywhere():
@@ -126,7 +126,7 @@ def draw_route(floor, rng):
 
 
 def indoors(floor, route):
-    """Whether solids are near on most sides of the route's middle."""
+    """Whether there are solids within 6 m of the route's corner in at least half of the directions."""
     middle = route[1]
     near = sum(not floor.is_free(middle, middle + 6.0 * np.array([math.cos(a), math.sin(a)]))
                for a in np.linspace(0, math.tau, 12, endpoint=False))
@@ -169,7 +169,7 @@ tag_profile: {halls.ROOT}/profiles/tags/monza_r6.yaml
 
 
 def write_scenarios(options, folder):
-    """By name, of all drives through all worlds."""
+    """Writes scenarios of all drives through all worlds; returns their paths by name."""
     scenarios = {}
     for world in options.worlds:
         floor = Floor(world, options.model_path)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Each door takes its seeds as they are meant, and all that fuzzing ever found.
+"""Runs each fuzz target (door) on its valid seeds and on all inputs that fuzzing has found.
 
     fuzz/replay_test.py BUILD
 """

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Seeds for the fuzzers, made from what the repository has.
+"""Generates seeds for the fuzzers from files of the repository.
 
     fuzz/seeds.py FOLDER
 
-FOLDER/DOOR/… are inputs that each door (fuzz/DOOR.cc) takes as they are meant.
+FOLDER/DOOR/… are valid inputs of each fuzz target (fuzz/DOOR.cc).
 """
 
 import io
@@ -68,7 +68,7 @@ def http():
 
 def scenario():
     for path in sorted(SOURCE.glob("scenarios/*.yaml")):
-        # What it names lies elsewhere: without, more of it is looked at.
+        # Files that it refers to are missing here: without them, more of the scenario is parsed.
         lines = [line for line in path.read_text(encoding="utf-8").splitlines()
                  if "world" not in line and "profiles/" not in line and "path:" not in line]
         yield path.stem, path.read_bytes()
@@ -99,7 +99,7 @@ def epc():
 
 
 def grey_png(rows):
-    """An image of 8 bits a pixel."""
+    """A greyscale PNG image with 8 bits per pixel."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
@@ -193,7 +193,7 @@ def dataset():
                   b"position: {columns: [x, y, z], unit: m}\n\0" + table.encode())
 
 
-# A TagReads of one read (tagfield_msgs/msg), field by field as ROS 1 writes it and as CDR does.
+# A TagReads message (tagfield_msgs/msg) with one read, serialized field by field for ROS 1 and as CDR.
 READ_NUMBERS = (866.9e6, 1.5, -60.0, 0.25)
 
 
@@ -232,7 +232,7 @@ def cdr_reads():
 
 
 def bag():
-    """A rosbag of ROS 1 (http://wiki.ros.org/Bags/Format/2.0): one chunk with one message."""
+    """A ROS 1 bag (http://wiki.ros.org/Bags/Format/2.0): one chunk with one message."""
     def fields(**values):
         entries = [name.encode() + b"=" + value for name, value in values.items()]
         return b"".join(struct.pack("<I", len(entry)) + entry for entry in entries)
@@ -261,14 +261,14 @@ def bag():
 
 
 def recording():
-    """Each to be held, and to be told anew (a first byte of 128 or more)."""
+    """Each recording twice: with reads held in memory, and read again (first byte of 128 or more)."""
     for kind, (name, content) in enumerate(recordings()):
         yield name, bytes([kind]) + content
         yield f"{name}_told", bytes([129 + kind]) + content
 
 
 def recordings():
-    """A rosbag, an MCAP file and a database."""
+    """A rosbag, an MCAP file and a rosbag2 database (SQLite)."""
     topic, kind = "/rfid/reads", "tagfield_msgs/msg/TagReads"
     yield "bag", bag()
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What scripts/gazebo-experiment has of ROS for a robot that finds its way by itself: where the robot
-is and believes to be, goals and what became of them."""
+"""The ROS part of scripts/gazebo-experiment for a robot that navigates autonomously: true and believed
+poses, goals and their outcomes."""
 
 import math
 import pathlib
@@ -14,7 +14,7 @@ STATES = {2: "preempted", 3: "reached", 4: "given up", 5: "refused", 8: "recalle
 
 
 def read_robot(scenario):
-    """The scenario's one robot with waypoints, as its file says."""
+    """The only robot with waypoints of a scenario file."""
     import yaml  # pylint: disable=import-outside-toplevel  # not needed for --help
     text = pathlib.Path(scenario).read_text(encoding="utf-8")
     robots = [robot for robot in (yaml.safe_load(text) or {}).get("robots", [])
@@ -27,7 +27,7 @@ def read_robot(scenario):
 
 
 def goals_of(robot):
-    """(x, y, yaw) at each waypoint, looking along the way that led there."""
+    """(x, y, yaw) at each waypoint, with the heading of the path that leads to it."""
     goals = []
     x, y, yaw = robot["start"]
     for to_x, to_y in robot["waypoints"]:
@@ -47,13 +47,13 @@ def wrapped(angle):
 
 
 def compose(a, b):
-    """The pose `b`, which is in the frame of pose `a`, in that of `a`."""
+    """Composes poses (x, y, yaw): `b`, given relative to `a`, in the frame in which `a` is given."""
     c, s = math.cos(a[2]), math.sin(a[2])
     return a[0] + c * b[0] - s * b[1], a[1] + s * b[0] + c * b[1], a[2] + b[2]
 
 
 class Navigator:
-    """Hears where the robot is and what became of goals, and gives them. Needs an initialized rospy."""
+    """Sends goals and receives their outcomes and the robot's poses. Needs an initialized rospy node."""
 
     def __init__(self):
         import rospy  # pylint: disable=import-outside-toplevel
@@ -96,7 +96,7 @@ class Navigator:
                     self.status = status
 
     def tell_world(self):
-        """The map's frame is the world's, as the robot began at a known pose."""
+        """Publishes that the map frame equals the world frame, as the robot started at a known pose."""
         from geometry_msgs.msg import TransformStamped  # pylint: disable=import-outside-toplevel
         frame = TransformStamped()
         frame.header.frame_id = "world"
@@ -105,7 +105,7 @@ class Navigator:
         self.fixed.publish([frame])
 
     def pose(self):
-        """Of the robot on the map, as it believes; None where it doesn't."""
+        """The robot's believed pose on the map, or None if it is not known."""
         if ODOM not in self.frames or "base_link" not in self.frames:
             return None
         return compose(self.frames[ODOM][0], self.frames["base_link"][0])
@@ -127,14 +127,14 @@ class Navigator:
         self.goals.publish(message)
 
     def outcome(self):
-        """What became of the goal, or None while the robot is under way."""
+        """The status of the goal, or None while the robot drives to it."""
         with self.lock:
             if self.status is None or self.status.status in ACTIVE:
                 return None
             return self.status
 
     def judge(self, goal, status):
-        """The outcome in numbers: where the robot truly is, and where it believes to be."""
+        """The outcome in numbers: true and believed pose, and their errors relative to the goal."""
         truth, pose = self.truth, self.pose()
         return {
             "goal": list(goal), "outcome": STATES.get(status.status, "unknown"),

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""ROS 2 messages from their .msg files: C++ with CDR, and IDL for the topic descriptions of DDS.
+"""Generates C++ with CDR serialization, and IDL for DDS topic descriptors, from ROS 2 .msg files.
 
     make_messages.py OUT_DIR ROOT…
 
-Each ROOT holds PACKAGE/msg/NAME.msg. Writes OUT_DIR/ros2_messages.h, ros2_messages.cc, ros2_topics.idl
-and dds_types.cc. For each message these know the name, the text that MCAP and bags keep of it, and the
-type hash by which ROS 2 tells versions apart (RIHS01: the SHA-256 of the type's description as JSON).
+Each ROOT contains PACKAGE/msg/NAME.msg. Writes OUT_DIR/ros2_messages.h, ros2_messages.cc, ros2_topics.idl
+and dds_types.cc. They include the name of each message, its definition as stored in MCAP files and bags,
+and the type hash by which ROS 2 distinguishes versions (RIHS01: the SHA-256 of the type description as
+JSON).
 """
 
 import dataclasses
@@ -16,7 +17,7 @@ import pathlib
 import re
 import sys
 
-# Of C++, of IDL, and the number that type descriptions have for it.
+# Type in C++, type in IDL, and type_id in type descriptions.
 PRIMITIVES = {
     "bool": ("bool", "boolean", 15), "byte": ("std::uint8_t", "octet", 16),
     "int8": ("std::int8_t", "int8", 2), "uint8": ("std::uint8_t", "uint8", 3),
@@ -27,31 +28,31 @@ PRIMITIVES = {
     "string": ("std::string", "string", 17)}
 NESTED = 1
 BOUNDED_STRING = 21
-ARRAY = 48  # is added to the number of what it is of
+ARRAY = 48  # added to the type_id of the elements
 SEQUENCE = 144
 FIELD = re.compile(r"^(?P<type>[\w/]+)(?:<=(?P<bound>\d+))?(?P<list>\[(?P<count>\d*)\])?\s+(?P<name>\w+)"
                    r"(?P<rest>.*)$")
 
 
 class BadMessage(Exception):
-    """A line of a .msg file that this reader does not know."""
+    """A line of a .msg file that cannot be parsed, or a message of unknown type."""
 
 
 @dataclasses.dataclass
 class Field:
-    """One field; `type` is a primitive's or a message's full name."""
+    """A field; `type` is a primitive type or the full name of a message."""
 
     name: str
     type: str
-    bound: int  # of a string, 0 for none
+    bound: int  # maximum length of a string, 0 for unbounded
     is_list: bool
-    count: int  # of a list, 0 where it may be any
+    count: int  # length of an array, 0 for a sequence of any length
     default: str
 
 
 @dataclasses.dataclass
 class Message:
-    """One message, PACKAGE/msg/NAME."""
+    """A message type, PACKAGE/msg/NAME."""
 
     package: str
     name: str
@@ -94,7 +95,7 @@ def read_message(path):
 
 
 def in_order(messages):
-    """Each after those that it is made of."""
+    """Sorts messages so that each comes after those that it contains."""
     done = {}
 
     def add(message):
@@ -111,7 +112,7 @@ def in_order(messages):
 
 
 def needs(message, messages):
-    """All messages that it is made of, by name."""
+    """All messages that a message contains, directly or indirectly, by name."""
     found = {}
     for field in message.fields:
         if field.type not in PRIMITIVES:
@@ -139,7 +140,7 @@ def described(message):
 
 
 def type_hash(message, messages):
-    """As REP-2016 has it: of the description without defaults, those that it needs in order of names."""
+    """Type hash of REP-2016: of the type description without defaults, with referenced types by name."""
     others = needs(message, messages)
     text = json.dumps({"type_description": described(message),
                        "referenced_type_descriptions": [described(others[name])
@@ -149,7 +150,7 @@ def type_hash(message, messages):
 
 
 def definition(message, messages):
-    """Its text, and those of all that it needs behind lines that name them."""
+    """The message definition, followed by those of the contained messages under their names."""
     parts = [message.text]
     others = needs(message, messages)
     for name in sorted(others):
@@ -249,7 +250,7 @@ def idl(messages):
     return "// Made by make_messages.py from .msg files.\n" + "".join(parts)
 
 
-# --- What Cyclone DDS takes -----------------------------------------------------------------------
+# --- Cyclone DDS ----------------------------------------------------------------------------------
 
 def c_name(full_name):
     package, _, name = full_name.split("/")
@@ -257,7 +258,7 @@ def c_name(full_name):
 
 
 def lending(field):
-    """Lets a field of the C struct point at what the C++ struct has."""
+    """C++ code that makes a field of the C struct refer to the data of the C++ struct."""
     target = f"c.{field.name}"
     value = f"m.{field.name}"
     if field.bound:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the moving picture of the README: the warehouse experiment, located anew as the reads come in.
+"""Draws the README's animation: the warehouse experiment, localized again as the reads arrive.
 
     scripts/setup --python && cmake --build build/release --target tagfield_python
     PYTHONPATH=build/release/lib/python docs/site/animation.py docs/images/experiment.webp
@@ -19,7 +19,7 @@ import tagfield  # noqa: E402
 from PIL import Image  # noqa: E402
 
 FRAMES = 60
-HOLD = 15  # frames that the last one stays
+HOLD = 15  # number of times that the last frame is repeated
 MILLISECONDS = 110
 BLUE, ORANGE, GREY, BLACK = "#0072b2", "#d55e00", "#9a9a9a", "#222222"
 

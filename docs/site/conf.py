@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sphinx's settings. scripts/docs builds the site; stage.py has gathered its pages beforehand."""
+"""Sphinx configuration. scripts/docs builds the site from the pages that stage.py collects before."""
 
 import os
 import pathlib
@@ -12,7 +12,7 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 OUT = pathlib.Path(os.environ.get("TAGFIELD_DOCS_OUT", TOP / "build/docs"))
 
 project = "Tagfield"
-copyright = "the Tagfield authors, Apache-2.0"  # Sphinx's name for it.
+copyright = "the Tagfield authors, Apache-2.0"  # The name is Sphinx's.
 html_title = "Tagfield"
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc"]
 try:
@@ -25,7 +25,7 @@ except ImportError:
 exclude_patterns = ["files"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
-suppress_warnings = ["myst.header"]  # Generated pages begin sections at the level that reads best.
+suppress_warnings = ["myst.header"]  # Generated pages skip heading levels on purpose.
 
 breathe_projects = {"tagfield": str(OUT / "doxygen/xml")}
 breathe_default_project = "tagfield"
@@ -36,12 +36,12 @@ html_theme = "furo"
 html_static_path = ["static"]
 html_css_files = ["tagfield.css", "katex.min.css"]
 html_js_files = ["katex.js", "formulas.js"]
-# Debian's KaTeX, so that pages need no network. TAGFIELD_KATEX names another copy.
+# Debian's KaTeX, so that pages need no network access. TAGFIELD_KATEX names another copy.
 KATEX = pathlib.Path(os.environ.get("TAGFIELD_KATEX", "/usr/share/javascript/katex"))
 html_static_path.append(str(KATEX))
 html_show_sphinx = False
 html_copy_source = False
-# Debian's build of furo has lost its dark colours, and the looks of its switch (static/tagfield.css).
+# Debian's build of furo lacks the dark colours and the style of the theme switch (static/tagfield.css).
 html_theme_options = {
     "navigation_with_keys": True,
     "dark_css_variables": {
@@ -70,7 +70,7 @@ copybutton_prompt_is_regexp = True
 pygments_style = "default"
 pygments_dark_style = "monokai"
 
-# What a code block without a language is in, by how it begins.
+# Language of a code block that states none, by its beginning.
 LANGUAGES = [
     (r"\s*<", "xml"),
     (r">>> ", "pycon"),
@@ -84,13 +84,13 @@ LANGUAGES = [
 
 
 class BlockLanguages(SphinxTransform):
-    """Indented blocks have no language in Markdown."""
+    """Guesses the language of indented code blocks, which have none in Markdown."""
 
     default_priority = 450
 
     def apply(self):
         for block in list(self.document.findall(nodes.literal_block)):
-            if block.get("language") == "math":  # The form of a formula that GitHub takes, too.
+            if block.get("language") == "math":  # A formula in the form that GitHub renders, too.
                 formula = nodes.math_block(block.astext(), block.astext(), nowrap=False, number=None)
                 block.replace_self(formula)
                 continue
@@ -102,7 +102,7 @@ class BlockLanguages(SphinxTransform):
 
 
 class WideTables(SphinxTransform):
-    """Tables scroll by themselves, not the page."""
+    """Wraps tables in boxes that scroll on their own, so that the page does not have to."""
 
     default_priority = 460
 
@@ -117,11 +117,11 @@ FIELD = re.compile(r"(\w+(?:, \w+)*): +(\S.*)")
 
 
 def docstring(_app, _what, _name, _object, _options, lines):
-    """Lists of fields ("name: what it is") as lists; code as code."""
+    """Converts field descriptions ("name: description") to lists and indented code to code blocks."""
     written = []
     in_list = False
     for line in lines:
-        line = re.sub(r'"(FILE:LINE[^"]*)"', r"``\1``", line)  # It is no address.
+        line = re.sub(r'"(FILE:LINE[^"]*)"', r"``\1``", line)  # Otherwise it becomes a link.
         match = FIELD.fullmatch(line)
         if match:
             if not in_list:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The gallery: small scenarios run while the site is built, and what they draw."""
+"""The gallery: figures from small scenarios that run while the site is built."""
 
 import pathlib
 import shutil
@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-# Title, what is to be seen, the command (DIR is its folder of results), figures with what they show.
+# Title, description, command (DIR is its results folder), figures with captions.
 PICTURES = [
     ("The warehouse experiment",
      "Ten tags are located from the phases that one antenna on a robot reads "
@@ -44,7 +44,7 @@ PICTURES = [
 
 
 def draw(top, tagfield, command, folder):
-    """Runs one command in the checkout."""
+    """Runs one command in the source folder."""
     import shlex
 
     words = [word.replace("DIR", str(folder)) for word in shlex.split(command)]

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The keys that files of users may have, as the sources ask for them, and the page that describes each."""
+"""The keys of user files that the sources read, and the pages that describe them."""
 
 import pathlib
 import re
 
-# Sources that read YAML, and the pages of which one has to have their keys.
+# Sources that read YAML, and the pages of which at least one has to describe their keys.
 SOURCES = {
     "tagfield/scenario/*.cc": ["scenario", "link_budget", "plan", "datasets", "files", "reader", "calibration"],
     "tagfield/scenario/internal/*.cc": ["scenario", "tracking", "plan", "link_budget", "coverage"],
@@ -17,13 +17,13 @@ SOURCES = {
 }
 ASKED = re.compile(r'\b(?:map|suite|values|table|laser|yaml)\w*\.(?:has|at|number|text|boolean|list|whole_number)'
                    r'\(\s*"(\w+)"')
-# A row of a table of settings: {"key", "unit", …
+# A row in a table of settings: {"key", "unit", …
 SETTING = re.compile(r'\{\s*"([a-z]\w*_?\w*)",\s*"[^"]*",')
 OPTION = re.compile(r'\{\{\s*"([a-z]\w+)"')
 
 
 def keys(top):
-    """{key: {source files}} of all that the sources read, and which pages could have it."""
+    """All keys that the sources read: {key: {"sources": files, "pages": pages that may describe it}}."""
     found = {}
     for pattern, pages in SOURCES.items():
         for path in sorted(pathlib.Path(top).glob(pattern)):
@@ -41,7 +41,7 @@ def keys(top):
 
 
 def describes(text, key):
-    """Whether a page has the key in code: alone, as the last part of a path, or in an example."""
+    """Whether a page has the key in inline code: alone, as part of a path, or in an example."""
     return re.search(rf"`[^`\n]*\b{key}\b[^`\n]*`", text) is not None
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pages of reference, made from the program and the sources."""
+"""Reference pages, generated from the program's help and the sources."""
 
 import functools
 import pathlib
@@ -20,13 +20,13 @@ def help_of(tagfield, *command):
 
 
 def commands_of(text):
-    """The names in the list of a help text, with what each does."""
+    """Names and descriptions of the subcommands in a help text."""
     listed = text.split("Subcommands:\n", 1)[1].split("\n\n", 1)[0]
     return dict(re.findall(r"^  (\S+)\s+(.*)$", listed, re.MULTILINE))
 
 
 def entries(section):
-    """Names and descriptions of a section of a help text: options or arguments."""
+    """Names and descriptions in a section of a help text: options or arguments."""
     found = []
     for line in section.split("\n"):
         match = ENTRY.match(line)
@@ -38,7 +38,7 @@ def entries(section):
 
 
 def kind_of(words):
-    """What an option takes, in words."""
+    """The type of an option's value, in words."""
     words = re.sub(r"(UINT|INT|FLOAT):\1 in \[(\S+) - (\S+)\]",
                    lambda match: f"{KINDS[match[1]]}, {match[2]} to {match[3]}", words)
     words = re.sub(r"TEXT:\{([^}]*)\}", lambda match: match[1].replace(",", ", "), words)
@@ -48,7 +48,7 @@ def kind_of(words):
 
 
 def cell(text):
-    """A table's cell; what looks like markup stays text."""
+    """A table cell; characters with a meaning in Markdown are escaped."""
     text = re.sub(r"(--[a-z][a-z0-9-]*)", r"`\1`", text)
     return text.replace("|", "\\|").replace("*", "\\*").replace("<", "\\<").replace("$", "\\$") or " "
 
@@ -60,7 +60,7 @@ def table(rows, head):
 
 
 def option_row(name, description):
-    """A row for `--seeds UINT:UINT in [1 - 9] Excludes: --drive`."""
+    """A table row for an option such as `--seeds UINT:UINT in [1 - 9] Excludes: --drive`."""
     match = re.match(r"((?:-\w,)?--?[\w-]+|[A-Z]+)\s*(.*)", name)
     words, *limits = re.split(r"\b(?=Needs:|Excludes:)", match[2])
     notes = " ".join(limit.replace("Needs:", "Only with").replace("Excludes:", "Not with").strip() + "."
@@ -122,7 +122,7 @@ def messages_page(top):
 
 
 def api_sections(top):
-    """Components of docs/api.md with their headers: (title, rest of its text, headers)."""
+    """Yields (title, headers) for each component of docs/api.md that has headers."""
     text = (top / "docs/api.md").read_text(encoding="utf-8")
     for section in re.split(r"^## ", text, flags=re.MULTILINE)[1:]:
         title, _, body = section.partition("\n")
@@ -132,7 +132,7 @@ def api_sections(top):
 
 
 def cpp_pages(top):
-    """{name: text}: a page for each component, and one that lists them."""
+    """Yields (name, text) of a page for each component, and of one that lists them."""
     names = []
     for title, headers in api_sections(top):
         name = f"cpp_{title}"

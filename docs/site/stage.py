@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Gathers the pages of the site in a folder: those of docs/ as they are, and those made from the sources.
+"""Collects the pages of the site in a folder: those of docs/ and those generated from the sources.
 
     stage.py SOURCE_DIR TAGFIELD STAGE_DIR [--gallery yes|no]
 
-The order of the pages, and thereby the site's menu, is that of the links in docs/index.md.
+The site's menu has the order of the links in docs/index.md.
 """
 
 import argparse
@@ -17,7 +17,7 @@ import gallery
 import reference
 
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)")
-# Pages from elsewhere in the repository, by the name that they have on the site.
+# Pages from elsewhere in the repository, with their names on the site.
 ELSEWHERE = {
     "CONTRIBUTING.md": "contributing.md",
     "CHANGELOG.md": "changelog.md",
@@ -27,7 +27,7 @@ ELSEWHERE = {
 
 
 def in_code(text):
-    """Which lines are code: fenced, or indented after an empty line."""
+    """Whether each line is code: fenced, or indented after an empty line."""
     fenced = indented = False
     empty = True
     for line in text.split("\n"):
@@ -46,7 +46,7 @@ class Stage:
         self.top, self.folder = top, folder
 
     def target(self, page, target):
-        """A link's target on the site, or None where only its text can stay."""
+        """A link's target on the site, or None if only the link's text is kept."""
         if re.match(r"[a-z]+:", target) or target.startswith("#"):
             return target
         name, _, anchor = target.partition("#")
@@ -66,7 +66,7 @@ class Stage:
         return f"files/{path}"
 
     def title(self, target):
-        """Of a page, where a link's text is the name of its file."""
+        """The title of a page, for links whose text is its file name."""
         name = target.partition("#")[0]
         sources = {page: self.top / path for path, page in ELSEWHERE.items()}
         source = sources.get(name, self.top / "docs" / name)
@@ -88,7 +88,7 @@ class Stage:
 
 
 def menu(index):
-    """Tables of contents from the links of docs/index.md, a section each."""
+    """Tables of contents from the links in docs/index.md, one per section."""
     for section in re.split(r"^## ", index, flags=re.MULTILINE)[1:]:
         title = section.split("\n", 1)[0]
         pages = [f"{text} <{name.removesuffix('.md')}>" for mark, text, name in LINK.findall(section)

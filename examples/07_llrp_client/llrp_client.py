@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""An LLRP client in a hundred lines, with Python's standard library alone.
+"""An LLRP client in a hundred lines, using only Python's standard library.
 
     tagfield serve scenarios/portal.yaml --llrp 5084 &
     examples/07_llrp_client/llrp_client.py --port 5084 --seconds 3
 
-Connects to a reader, asks it to read with all antennas, and prints each tag's EPC, antenna, RSSI and
-phase. The same client reads from real readers that have the vendor's extension for phase.
+Connects to a reader, starts an inventory with all antennas, and prints EPC, antenna, RSSI and phase
+of each tag report. The client also works with real readers that support the vendor extension for phase.
 """
 
 import argparse
@@ -17,7 +17,7 @@ IMPINJ = 25882
 
 
 def parameter(kind, content):
-    """A parameter with a header of type and length."""
+    """A TLV parameter: a header with type and length, then the content."""
     return struct.pack("!HH", kind, 4 + len(content)) + content
 
 
@@ -52,7 +52,7 @@ class Reader:
         return data
 
     def ask(self, kind, body=b""):
-        """The answer's body; reports that come before it are passed over."""
+        """Sends a request and returns its response's body; skips reports that arrive before it."""
         self.send(kind, body)
         answer = {1023: 1023, 14: 4}.get(kind, kind + 10)
         while True:
@@ -68,7 +68,10 @@ class Reader:
 
 
 def ro_spec(identifier, milliseconds, every=1):
-    """All antennas for so long, at once; a report for each `every` tags, phase and RSSI in it."""
+    """An ROSpec that starts at once, reads with all antennas, and reports phase and RSSI.
+
+    every: number of tag reads per report.
+    """
     start, stop = parameter(179, b"\1"), parameter(182, struct.pack("!BI", 1, milliseconds))
     inventory = parameter(186, struct.pack("!HB", 1, 1))
     antennas = parameter(183, struct.pack("!HH", 1, 0) + parameter(184, struct.pack("!BI", 0, 0)) +
@@ -80,7 +83,7 @@ def ro_spec(identifier, milliseconds, every=1):
                      antennas + report)
 
 
-# Of parameters whose length is fixed: name, and how to read it.
+# TV parameters, which have a fixed length: name and struct format by type.
 FIXED = {1: ("antenna", "!H"), 2: ("first_us", "!Q"), 3: ("uptime_us", "!Q"), 4: ("last_us", "!Q"),
          5: ("last_uptime_us", "!Q"), 6: ("rssi_dbm", "!b"), 7: ("channel", "!H"), 8: ("seen", "!H"),
          9: ("ro_spec", "!I"), 10: ("inventory_spec", "!H"), 11: ("crc", "!H"), 12: ("pc", "!H"),
@@ -89,7 +92,7 @@ CUSTOM = {56: ("phase", "!H"), 57: ("rssi_cdbm", "!h"), 68: ("doppler", "!h")}
 
 
 def parameters(data):
-    """(type, content) of each."""
+    """Yields (type, content) of each parameter."""
     while data:
         kind = data[0] & 0x7F
         if data[0] & 0x80:
@@ -102,7 +105,7 @@ def parameters(data):
 
 
 def tags_in(report):
-    """A dictionary for each tag of an RO_ACCESS_REPORT."""
+    """Yields a dictionary for each tag report of an RO_ACCESS_REPORT."""
     for _, content in parameters(report):
         tag = {}
         for kind, value in parameters(content):
@@ -127,9 +130,9 @@ def main():
     arguments.add_argument("--seconds", type=float, default=3.0)
     asked = arguments.parse_args()
     reader = Reader(asked.host, asked.port, asked.seconds + 20)
-    reader.ask(1023, struct.pack("!IB", IMPINJ, 21) + bytes(4))  # the vendor's extension, please
+    reader.ask(1023, struct.pack("!IB", IMPINJ, 21) + bytes(4))  # enables the vendor extension
     reader.ask(21, struct.pack("!I", 0))  # DELETE_ROSPEC: all
-    # SET_READER_CONFIG: tell when a ROSpec begins and ends.
+    # SET_READER_CONFIG: enables events when an ROSpec starts and ends.
     reader.ask(3, b"\0" + parameter(244, parameter(245, struct.pack("!HB", 2, 0x80))))
     reader.ask(20, ro_spec(1, round(1000 * asked.seconds)))  # ADD_ROSPEC
     reader.ask(24, struct.pack("!I", 1))  # ENABLE_ROSPEC

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""An environment for read-aware planning, in Gymnasium's way: drive so that every tag is read often.
+"""A Gymnasium environment for read-aware planning: drive so that every tag is read often.
 
     PYTHONPATH=build/release/lib/python python3 examples/10_planning_environment/read_aware_env.py
 
-An action is a velocity and a turn rate, held for a second. An observation is where the robot believes it
-is and how often it has read each tag. The reward counts each read that a tag still needs, less a cost for
-time and walls. Where Gymnasium is installed, it is one of its environments; without, it works alone.
+An action is a forward velocity and a turn rate, held for one second. An observation is the robot's
+believed pose and how often it has read each tag. The reward counts each read that a tag still needs,
+minus a cost for time and for hitting walls. If Gymnasium is installed, the class derives from its Env;
+it also works without Gymnasium.
 """
 
 import math
@@ -25,10 +26,12 @@ HALF_WIDTH_M, HALF_LENGTH_M = 1.9, 5.8  # Free floor between the racks.
 
 
 class ReadAwareEnv(Env or object):
-    """observation: float32 (3 + tags,): x, y [m], yaw [rad], then the share of the wanted reads a tag.
+    """Environment of the warehouse scenario with the robot p3at.
 
-    action: (forward [m/s] in 0 … 0.5, turn [rad/s] in -1 … 1). Truncated after `limit_s`, terminated when
-    every tag was read `wanted` times.
+    observation: float32 (3 + tags,): x, y [m], yaw [rad], then each tag's share of the wanted reads.
+    action: (forward velocity [m/s] in 0 … 0.5, turn rate [rad/s] in -1 … 1).
+
+    An episode is truncated after `limit_s`, and terminates when every tag was read `wanted` times.
     """
 
     def __init__(self, wanted=40, limit_s=90.0):
@@ -62,13 +65,13 @@ class ReadAwareEnv(Env or object):
 
     def _observation(self):
         c, s = math.cos(self.start[2]), math.sin(self.start[2])
-        x, y, yaw = self.sim.odometry  # From where it started; it was told where that is.
+        x, y, yaw = self.sim.odometry  # Relative to the start pose, which is known.
         place = [self.start[0] + c * x - s * y, self.start[1] + s * x + c * y, self.start[2] + yaw]
         return np.array([*place, *np.minimum(self.counts / self.wanted, 1.0)], dtype=np.float32)
 
 
 class GreedyPolicy:
-    """Drives towards the middle of the aisle beside the tag that lacks most reads, the nearest first."""
+    """Drives along the aisles to the tag that lacks the most reads, with a preference for near tags."""
 
     def __init__(self, env):
         self.places = np.array(list(env.scenario.tags.values()))
@@ -78,7 +81,7 @@ class GreedyPolicy:
         lacking = 1.0 - observation[3:]
         away = np.hypot(self.places[:, 0] - x, self.places[:, 1] - y)
         goal = self.places[np.argmax(np.where(lacking > 0, lacking - 0.05 * away, -np.inf))]
-        # Beside it in its aisle, around the pallets in the middle by way of the hall's ends.
+        # Next to the tag in its aisle; to the other aisle around the ends of the pallets in the middle.
         aisle = math.copysign(1.4, goal[0])
         target = (aisle, goal[1]) if x * aisle > 0 else (aisle, math.copysign(5.2, y))
         if x * aisle < 0 and abs(y) < 5.0:
@@ -90,7 +93,7 @@ class GreedyPolicy:
 
 
 def at_random(seed):
-    """What a learner begins with."""
+    """A policy of random actions, as a baseline."""
     draw = np.random.default_rng(seed)
     return lambda observation: (draw.uniform(0.0, 0.5), draw.uniform(-1.0, 1.0))
 

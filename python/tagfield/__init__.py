@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tagfield: UHF RFID simulated, located and judged.
+"""Tagfield: UHF RFID simulation, tag localization and evaluation.
 
     import tagfield
 
@@ -9,10 +9,10 @@
     run.reads.to_pandas()
     tagfield.plot.hall(run)
 
-Lengths are metres, angles radians, times seconds (stamp_ns: nanoseconds), unless a name says otherwise.
-What is wrong with an input raises tagfield.Error, in one line, the same that the command prints; what is
-odd gives a tagfield.TagfieldWarning.
-docs/python.md has more.
+Lengths are in metres, angles in radians and times in seconds (stamp_ns: nanoseconds), unless a name
+states another unit. An invalid input raises tagfield.Error with the one-line message that the command
+line prints; a suspicious but usable one issues a tagfield.TagfieldWarning.
+See docs/python.md for more.
 """
 
 from . import _core
@@ -37,7 +37,7 @@ __all__ = [
 
 
 def __getattr__(name: str):
-    if name == "plot":  # Not before it is asked for: it needs matplotlib.
+    if name == "plot":  # Imported lazily, because it needs matplotlib.
         import importlib
 
         return importlib.import_module("tagfield.plot")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Methods compared in many conditions with many seeds."""
+"""Comparison of localization methods under many conditions with many seeds."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ __all__ = ["Bench", "bench"]
 
 
 class Bench:
-    """A comparison: str() is its table, to_pandas() a row for each condition and method.
+    """Result of a comparison of methods; str() returns it as a table.
 
-    docs/bench.md says what the columns mean.
+    docs/bench.md explains the columns.
     """
 
     def __init__(self, parts: Mapping[str, Any]) -> None:
@@ -35,15 +35,15 @@ class Bench:
         return self._parts["text"]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A row for each condition and method: located, mean_m, ratio_rms, nees_mean, …"""
+        """One row per condition and method: located, mean_m, ratio_rms, nees_mean, …"""
         return frame_of(self._parts["csv"])
 
     def tags(self) -> pandas.DataFrame:
-        """A row for each condition, method, seed and tag, as a pandas.DataFrame."""
+        """One row per condition, method, seed and tag, as a pandas.DataFrame."""
         return frame_of(self._parts["tags_csv"])
 
     def save_page(self, path: str | os.PathLike) -> None:
-        """Writes the page with all figures (HTML, self-contained)."""
+        """Writes a self-contained HTML page with all figures."""
         Path(path).write_text(self._parts["html"], encoding="utf-8")
 
 
@@ -52,17 +52,22 @@ def bench(what: str | os.PathLike | Scenario, methods: Sequence[Any] = (),
           phase_noise_rad: float | None = None, name: str | None = None, skip_missing: bool = False,
           allow_outside: bool = False, threads: int | None = None,
           progress: Callable[[float], Any] | None = None) -> Bench:
-    """Compares methods on the same reads, by the same judge and against the Cramér-Rao bound.
+    """Compares methods on the same reads, by the same criteria and against the Cramér-Rao bound.
 
         tagfield.bench(scenario, ["hyperbola", mine], {"true pose": {}, "1 cm": {"pose.source": "noisy"}},
                        seeds=20)
 
-    what: a scenario, its file, or a suite's file; methods of a suite are compared with those in `methods`.
+    what: a scenario, the path of a scenario file, or the path of a suite file. A suite defines its own
+        conditions and methods; only methods of your own can be added to them.
     methods: names, methods of your own, or (label, name, {setting: value}).
-    conditions: label and what is different there, as of Scenario.with_(), or a Scenario of its own.
-    seeds: so many in each condition, from first_seed (1, or the suite's) on. phase_noise_rad: for the bound,
-    where the model states none. skip_missing, allow_outside: of files, as of load(). progress: called with
-    0 … 1 now and then; Ctrl-C raises KeyboardInterrupt.
+    conditions: by label, the changes to the scenario (a mapping as for Scenario.with_()) or another
+        Scenario.
+    seeds: number of seeds per condition, by default 1 or the suite's.
+    first_seed: the first of them, by default 1 or the suite's.
+    phase_noise_rad: phase noise for the bound, where the model states none.
+    name: title of the comparison.
+    skip_missing, allow_outside: for files, see :func:`load`.
+    progress: called now and then with the completed share, 0 to 1. Ctrl-C raises KeyboardInterrupt.
     """
     own = [entry for entry in methods if isinstance(entry, _core.Method)]
     own += [entry[1] for entry in methods if isinstance(entry, tuple) and isinstance(entry[1], _core.Method)]
@@ -88,7 +93,7 @@ def bench(what: str | os.PathLike | Scenario, methods: Sequence[Any] = (),
 
 
 def _is_suite(path: str | os.PathLike) -> bool:
-    """Suites have conditions, scenarios have none."""
+    """Whether the file is a suite: only suites have a key `conditions`."""
     return any(line.startswith("conditions:") for line in Path(path).read_text(encoding="utf-8").splitlines())
 
 

@@ -1,4 +1,4 @@
-"""The part of Tagfield in C++; users import tagfield."""
+"""The C++ extension module; users import tagfield instead."""
 
 from typing import Any, Callable
 
@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 __version__: str
 
 class Error(ValueError):
-    """Invalid input; the message is one line with the fault, its location and what was expected."""
+    """An invalid input: a one-line message that states what, where, and what was expected."""
 
 class Read:
     @property

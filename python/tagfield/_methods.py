@@ -18,12 +18,13 @@ Problem = _core.Problem
 
 @dataclass
 class Estimate:
-    """A position where a tag may be, as your own method returns it.
+    """A position estimate of a tag, as returned by a method of your own.
 
-    position_m: x, y [m, world], or x, y, z; without z the tag's height is taken as known.
-    covariance_m2: (3, 3) or (2, 2) covariance of it [m²], if the method knows it.
-    expected_error_m: root of the horizontal variances [m]; by default that of the covariance. Above
-        the scenario's limit (0.15 m) a tag does not count as located.
+    position_m: x, y [m, world], or x, y, z; without z, the height is :meth:`Problem.height_m`.
+    covariance_m2: covariance of the position [m²], (3, 3) or (2, 2), if the method knows it.
+    expected_error_m: square root of the trace of the horizontal covariance [m]; by default computed
+        from covariance_m2. If it exceeds the limit (0.15 m by default), the tag does not count as
+        located.
     rms_m: root mean square of the fit's residuals [m].
     """
 
@@ -34,18 +35,20 @@ class Estimate:
 
 
 def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[Callable], _core.Method]:
-    """Makes a localization method from a function, to be run and compared like any other.
+    """Decorator that makes a function a localization method, to run and compare like any other.
 
-    With ``per_tag`` the function is called as ``function(problem, tag, samples)`` for each tag, with
-    ``samples = problem.samples(tag)``. Otherwise as ``function(problem)``, and returns a mapping from
-    tag to what the other returns:
+    With ``per_tag``, the function is called for each tag as ``function(problem, tag, samples)``, with
+    ``samples = problem.samples(tag)``, and returns one of:
 
-    - a place: two or three numbers [m, world], or an :class:`Estimate`;
-    - a list of such, best first: the tag is ambiguous;
-    - ``None``, or a string that says why: the tag is not located.
+    - a position: two or three numbers [m, world], or an :class:`Estimate`;
+    - a list of positions, best first: the tag is ambiguous;
+    - ``None``, or the reason as a string: the tag is not located.
 
-    Its result is then checked against the phases once more, as with all methods. Called from
-    several threads of a bench, one at a time.
+    Without ``per_tag``, it is called once as ``function(problem)`` and returns a mapping from tag to
+    one of these.
+
+    As for all methods, the result is then checked against the phases. In a bench, several threads
+    call the function, but never at the same time.
 
         @tagfield.method("strongest", "where the antenna heard the tag best")
         def strongest(problem, tag, samples):
@@ -68,7 +71,7 @@ def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[C
 
 
 def _answers(name: str, problem: Problem, answers: Mapping[str, Any]) -> list[tuple]:
-    """What the core takes: (tag, why not, places) of every tag."""
+    """The answers in the form that the core expects: (tag, reason for failure, positions) per tag."""
     tags = problem.tags
     if not isinstance(answers, Mapping):
         raise _core.Error(f"method '{name}': returned {type(answers).__name__}, expected a mapping "
@@ -87,7 +90,7 @@ def _answers(name: str, problem: Problem, answers: Mapping[str, Any]) -> list[tu
 
 
 def _several(answer: Any) -> list:
-    """The answer as a list of places."""
+    """The answer as a list of positions."""
     if isinstance(answer, (list, tuple)) and answer and not np.isscalar(answer[0]):
         return list(answer)
     return [answer]

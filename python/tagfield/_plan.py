@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where antennas go."""
+"""Antenna placement."""
 
 from __future__ import annotations
 
@@ -20,10 +20,11 @@ __all__ = ["Plan", "plan"]
 
 
 class Plan:
-    """Layouts of antennas, from one up: str() says what the command prints.
+    """Optimized antenna layouts with one antenna, two, and so on; str() returns the command's output.
 
-    data: the content of plan.json: layouts, hard places, sensitivity, the check. docs/plan.md says what it means.
-    chosen: of the layouts, the one that was chosen. layout: that as a scenario (YAML).
+    data: the content of plan.json: layouts, positions that are hard to read, sensitivity, check. See
+        docs/plan.md.
+    layout: the chosen layout as a scenario (YAML).
     """
 
     def __init__(self, parts: Mapping[str, Any]) -> None:
@@ -43,34 +44,37 @@ class Plan:
 
     @property
     def chosen(self) -> dict[str, Any]:
-        """The chosen layout: antennas, readers, cost, score, share, bound, read {mean, low, high}, zones."""
+        """The chosen one of the layouts in `data`.
+
+        Its keys include antennas, readers, cost, score, share, bound, read {mean, low, high}, zones.
+        """
         count = self.data["chosen_antennas"]
         return next(one for one in self.data["layouts"] if len(one["antennas"]) == count)
 
     @property
     def scenario(self) -> Scenario:
-        """The chosen layout with one sample of its tags, to run."""
+        """The chosen layout with one random sample of its tags, as a scenario to run."""
         return Scenario._from(_Source(text=self.layout, name=self.data["scenario"] + "_layout",
                                       allow_outside=True))
 
     def layouts(self) -> pandas.DataFrame:
-        """A row for each number of antennas, as a pandas.DataFrame."""
+        """One row per number of antennas, as a pandas.DataFrame."""
         return frame_of(self._parts["layouts_csv"])
 
     def antennas(self) -> pandas.DataFrame:
-        """A row for each antenna of each layout, as a pandas.DataFrame."""
+        """One row per antenna of each layout, as a pandas.DataFrame."""
         return frame_of(self._parts["antennas_csv"])
 
     def places(self) -> pandas.DataFrame:
-        """A row for each place of tags, p_N by number of antennas, as a pandas.DataFrame."""
+        """One row per tag position, with its read probability p_N by number of antennas N."""
         return frame_of(self._parts["places_csv"])
 
     def save_page(self, path: str | os.PathLike) -> None:
-        """Writes the page with all layouts from above (HTML, self-contained)."""
+        """Writes a self-contained HTML page with a floor plan of each layout."""
         Path(path).write_text(self._parts["html"], encoding="utf-8")
 
     def save_layout(self, path: str | os.PathLike) -> None:
-        """Writes the chosen layout as a scenario's file."""
+        """Writes the chosen layout as a scenario file."""
         Path(path).write_text(self.layout, encoding="utf-8")
 
 
@@ -78,15 +82,18 @@ def plan(path: str | os.PathLike, *changes: str | Mapping[str, Any], seed: int |
          samples: int = 32, check: int = 0, exact_s: float = 0.0, links: str | os.PathLike = "",
          threads: int | None = None, progress: Callable[[float], Any] | None = None,
          skip_missing: bool = False, allow_outside: bool = False) -> Plan:
-    """Decides where antennas go: from a scenario's file with a section ``plan`` (docs/plan.md).
+    """Optimizes antenna placement for a scenario file with a section ``plan`` (docs/plan.md).
 
         made = tagfield.plan(tagfield.share("scenarios/plan/store.yaml"), {"plan.limits.antennas": 4}, check=20)
         made.scenario.run(seed=2)
 
-    changes: as of Scenario.with_(). samples: of each forecast. check: this many runs of the chosen layout in full,
-    with other tags and seeds. exact_s: seconds in which an integer program looks for a better one (needs CBC). links:
-    a folder where links are kept, from which the same plan resumes, or plans with other limits and aims at once.
-    progress: called with 0 … 1 now and then; Ctrl-C raises KeyboardInterrupt.
+    changes: changes to the scenario, as for Scenario.with_().
+    samples: number of samples per forecast, 8 to 10000.
+    check: number of full simulation runs of the chosen layout, with other tags and seeds.
+    exact_s: time limit [s] for an integer program that searches for a better layout (requires CBC).
+    links: folder that caches the links. With it, an interrupted plan resumes, and plans with other
+        limits or aims don't compute them again.
+    progress: called now and then with the completed share, 0 to 1. Ctrl-C raises KeyboardInterrupt.
     """
     if not 8 <= samples <= 10_000:
         raise _core.Error(f"plan: samples is {samples}, expected 8 to 10000")

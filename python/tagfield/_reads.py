@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads of any origin: from files, from a reader, from a run."""
+"""Localization, tracking and calibration from reads of any source: files, readers or runs."""
 
 from __future__ import annotations
 
@@ -23,17 +23,19 @@ __all__ = ["Calibration", "calibrate", "localize", "methods", "poses_table", "re
 
 
 def methods() -> dict[str, str]:
-    """The localization methods that come with Tagfield: what each does, by name."""
+    """The built-in localization methods: short descriptions by name."""
     return dict(_core.methods())
 
 
 def read(reads: str | os.PathLike, poses: str | os.PathLike | None = None,
          format: str = "") -> tuple[Table, Table]:
-    """Reads and antenna poses from files: tables as Run.reads and Run.poses.
+    """Loads reads and antenna poses from files, as tables like Run.reads and Run.poses.
 
-    reads: a CSV table, the folder of a run, an archive of tables, or with `format` other people's tables
-        (docs/datasets.md): a name of profiles/datasets, as "adarf", or a YAML file.
-    poses: the antennas' poses (CSV), unless the run or the format has them.
+    reads: a CSV table, the folder of a run, an archive of tables, or a table in another `format`.
+    poses: the antennas' poses (CSV), unless the run or the format includes them.
+    format: format of third-party tables (docs/datasets.md): a name in profiles/datasets, such as
+        "adarf", or the path of a YAML file.
+
     Raises Error "FILE:LINE: …".
     """
     form = format
@@ -44,10 +46,10 @@ def read(reads: str | os.PathLike, poses: str | os.PathLike | None = None,
 
 
 def reads_table(columns: Any) -> Table:
-    """Reads of your own as a table: of a pandas.DataFrame, or a mapping from column to array (N,).
+    """Makes a table of reads from a pandas.DataFrame or a mapping from column to array (N,).
 
-    Columns: time_s or stamp_ns, antenna, tag, phase_rad (growing with distance), and if there are
-    frequency_hz (default 866.5 MHz), rssi_dbm (default -60), reader, doppler_hz.
+    Required columns are time_s or stamp_ns, antenna, tag and phase_rad (increasing with distance).
+    Optional ones are frequency_hz (default 866.5 MHz), rssi_dbm (default -60), reader and doppler_hz.
     """
     stamps = _stamps(columns, "reads")
     table = np.zeros(len(stamps), _core.read_dtype())
@@ -65,10 +67,10 @@ def reads_table(columns: Any) -> Table:
 
 
 def poses_table(columns: Any) -> Table:
-    """Antenna poses of your own as a table: of a pandas.DataFrame or a mapping of arrays (N,).
+    """Makes a table of antenna poses from a pandas.DataFrame or a mapping from column to array (N,).
 
-    Columns: time_s or stamp_ns, antenna (or name), x_m, y_m, z_m [m, world], and if there are qx, qy, qz,
-    qw (default no rotation). One row for an antenna at rest.
+    Required columns are time_s or stamp_ns, antenna (or name), x_m, y_m and z_m [m, world]. Optional
+    ones are qx, qy, qz, qw (default: no rotation). A fixed antenna needs only one row.
     """
     stamps = _stamps(columns, "poses")
     table = np.zeros(len(stamps), _core.pose_dtype())
@@ -87,22 +89,33 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
              settings: Mapping[str, Any] | None = None, truth: Any = None,
              scenario: Scenario | None = None, threads: int | None = None,
              **known: Any) -> Localization:
-    """Locates the tags of reads, by any method.
+    """Locates the tags from reads and antenna poses, by any method.
 
     reads, poses: tables, pandas.DataFrames or mappings (:func:`reads_table`, :func:`poses_table`).
-    method: a name of :func:`methods`, one of your own, or None: the scenario's, else "auto", which
-        chooses by the data and says why.
-    settings: of the method, as {"stride_m": 1} (docs/methods.md).
-    truth: positions (3,) [m, world] by tag, only for the errors.
-    scenario: whose knowledge of heights, poses, world is used where nothing else is given.
+    method: a name in :func:`methods`, a method of your own, or None for the scenario's or else "auto",
+        which selects a method by the data and states the reason.
+    settings: settings of the method, such as {"stride_m": 1} (docs/methods.md).
+    truth: true positions (3,) [m, world] by tag; used only to compute errors.
+    scenario: scenario whose prior knowledge (heights, pose errors, world) applies where no keyword
+        overrides it.
 
-    Prior knowledge, as keywords: tag_height_m; tag_heights_m {tag: m}; height "above" or "below":
-    heights are estimated, on that side of the antennas; side ("left", "right", "+x", "-x", "+y", "-y") and
-    box_m (x0, y0, x1, y1): where tags can be; reference_tags {tag: (3,) m}; offset_rad, or offsets_rad
-    {antenna: rad}; pose_sigma_m, pose_yaw_sigma_deg, pose_time_constant_s: the error of the poses;
-    world_sigma_m: how far surfaces of the scenario's world may be off, for multipath (0.01 if not given;
-    0 suits reads that were simulated in that very world); max_expected_error_m: with a larger
-    one a tag is not located; pi_ambiguity: whether phases have the π ambiguity.
+    Prior knowledge is given by keywords:
+
+    tag_height_m: height of all tags [m, world].
+    tag_heights_m: heights [m, world] by tag.
+    height: "above" or "below": unknown heights are estimated, on that side of the antennas.
+    side: side of the antennas' path on which tags can be: "left", "right" (of the motion), "+x", "-x",
+        "+y" or "-y".
+    box_m: x0, y0, x1, y1 [m, world] of the area in which tags can be.
+    reference_tags: positions (3,) [m, world] of reference tags, by ID.
+    offset_rad: phase offset of all antennas.
+    offsets_rad: phase offsets by antenna.
+    pose_sigma_m, pose_yaw_sigma_deg, pose_time_constant_s: standard deviations and correlation time of
+        the pose error; the last two need pose_sigma_m.
+    world_sigma_m: standard deviation of the position of the scenario world's surfaces [m], for method
+        "multipath" (default 0.01; 0 for reads that were simulated in the same world).
+    max_expected_error_m: a tag with a larger expected error is not located.
+    pi_ambiguity: whether phases have the π ambiguity.
     """
     _refuse_unknown("localize", known, _KNOWN)
     own = method if isinstance(method, _core.Method) else None
@@ -118,12 +131,17 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
 
 def track(reads: Any, poses: Any, *, scenario: Scenario | None = None, threads: int | None = None,
           **known: Any) -> Tracks:
-    """Follows moving tags past antennas; see docs/tracking.md.
+    """Tracks tags that move past antennas; see docs/tracking.md.
 
-    Keywords: method ("ekf", "ukf", "particle"); lane (x, y [m], heading [deg], sigma [m]): along which tags move;
-    both_ways; line (x, y [m], heading [deg]): across which the order is reported; speed_m_s (least, greatest);
-    acceleration_noise [m/s²/√Hz]; tag_height_m, tag_heights_m, offset_rad, offsets_rad as of
-    :func:`localize`. What is not given is the scenario's, if there is one.
+    Keywords, by default the scenario's values if there is a scenario:
+
+    method: "ekf", "ukf" or "particle".
+    lane: x, y [m], heading [deg] and optionally sigma [m] of the lane along which tags move.
+    both_ways: whether tags can move in both directions along the lane.
+    line: x, y [m], heading [deg] of the line at which the order of passing is reported.
+    speed_m_s: minimum and maximum speed.
+    acceleration_noise: in m/s²/√Hz.
+    tag_height_m, tag_heights_m, offset_rad, offsets_rad: see :func:`localize`.
     """
     _refuse_unknown("track", known, _TRACK)
     return Tracks(_core.track(_reads_argument(reads), _poses_argument(poses),
@@ -133,11 +151,14 @@ def track(reads: Any, poses: Any, *, scenario: Scenario | None = None, threads: 
 
 @dataclass(frozen=True)
 class Calibration:
-    """What reads of tags at known positions tell about the antennas.
+    """Calibration of antennas from reads of tags at known positions.
 
     antennas: by name {"phase_sign", "place_m": 3 × (value, sigma, observable), "time_offset_s": (value,
-        sigma, observable), "noise_rad", "reads", "offsets_rad": {frequency_hz: (value, sigma)}}.
-    yaml: the profile that ``tagfield localize --calibration`` takes.
+        sigma, observable), "noise_rad", "reads", "offsets_rad": {frequency_hz: (value, sigma)}}; place_m
+        is the phase centre's position in the antenna's believed frame.
+    pi_ambiguity: whether the phases have the π ambiguity.
+    yaml: the profile, for ``tagfield localize --calibration``.
+    warnings: one line each.
     """
 
     antennas: dict[str, dict[str, Any]]
@@ -149,16 +170,20 @@ class Calibration:
         tell(self.warnings)
 
     def save(self, path: str | os.PathLike) -> None:
-        """Writes the profile."""
+        """Writes the profile to a YAML file."""
         Path(path).write_text(self.yaml, encoding="utf-8")
 
 
 def calibrate(reads: Any, poses: Any, tags: Mapping[str, Any], *, place_sigma_m: float = 0.1,
               time_sigma_s: float = 0.05, threads: int | None = None) -> Calibration:
-    """Antennas' phase centres, time offset, phase offsets and noise from tags at known positions.
+    """Estimates phase centres, time offsets, phase offsets and phase noise of antennas.
 
-    tags: positions (3,) [m, world] by ID. place_sigma_m, time_sigma_s: how far off an antenna's position and
-    its stamps may be, one sigma. See docs/calibration.md.
+    See docs/calibration.md.
+
+    reads, poses: see :func:`localize`.
+    tags: known positions (3,) [m, world] of the tags, by ID.
+    place_sigma_m: prior standard deviation of the phase centre's position, per axis.
+    time_sigma_s: prior standard deviation of the time offset.
     """
     places = {tag: np.asarray(place, dtype=float) for tag, place in tags.items()}
     return Calibration(**_core.calibrate(_reads_argument(reads), _poses_argument(poses), places,
@@ -178,7 +203,7 @@ def _refuse_unknown(function: str, told: Mapping[str, Any], known: set[str]) -> 
 
 
 def _listed(known: Mapping[str, Any]) -> dict[str, Any]:
-    """NumPy's arrays as lists, places as arrays."""
+    """The keywords with NumPy arrays as lists, and positions as arrays."""
     plain = {}
     for key, value in known.items():
         if key == "reference_tags" and value is not None:

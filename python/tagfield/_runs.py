@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What comes of scenarios: runs, steps, tracks, maps, explanations."""
+"""Results of scenarios: runs, stepped simulations, tracks, coverage maps, explanations."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ __all__ = ["Coverage", "Explanation", "Layer", "Localization", "Run", "Scan", "S
 
 @dataclass(frozen=True)
 class Truth:
-    """The ground truth: to judge by, never to locate by.
+    """Ground truth of a run, used only for evaluation, never for localization.
 
     antennas, robots: tables of stamp_ns, name, position_m (3,), quaternion_xyzw (4,); a fixed antenna
         has one row.
-    tags: stamp_ns, tag, position_m (3,); a row whenever a tag comes or moves.
-    distances: stamp_ns, antenna, tag, distance_m; a row a read, in the order of the reads.
+    tags: stamp_ns, tag, position_m (3,); one row whenever a tag appears or moves.
+    distances: stamp_ns, antenna, tag, distance_m; one row per read, in the order of the reads.
     """
 
     antennas: Table
@@ -40,17 +40,18 @@ class Truth:
 
 
 class Localization:
-    """Estimates of the tags' positions.
+    """Estimated positions of the tags.
 
-    estimates: a row a tag: tag, verdict (located, ambiguous, not_located), reason, reads, reads_used,
+    estimates: one row per tag: tag, verdict (located, ambiguous, not_located), reason, reads, reads_used,
         position_m (3,) [m, world] (NaN unless located), covariance_m2 (3, 3) (NaN where not stated),
         expected_error_m, rms_m of the best candidate, truth_m (3,) (NaN where unknown), error_m (NaN
-        where there is none), and reference (a tag whose position was given).
-    candidates: all positions that a tag may have: tag, number (1 is best), position_m, covariance_m2,
+        where there is none), and reference (whether it is a reference tag, with a given position).
+    candidates: all candidate positions of the tags: tag, number (1 is best), position_m, covariance_m2,
         expected_error_m, rms_m.
-    method, why: by which method, and why "auto" chose it.
-    corrected_poses: antenna poses with their error taken out, by methods that estimate it.
-    warnings: what was odd, one line each.
+    method: name of the method.
+    why: why "auto" selected it.
+    corrected_poses: antenna poses corrected for their estimated errors, by methods that estimate them.
+    warnings: one line each.
     """
 
     estimates: Table
@@ -72,19 +73,19 @@ class Localization:
 
     @property
     def errors_m(self) -> np.ndarray:
-        """(N,) distances [m] between estimate and truth, of located tags with a known position."""
+        """(N,) errors [m]: distances between estimate and truth, of located tags with known truth."""
         errors = self.estimates["error_m"]
         return errors[np.isfinite(errors)]
 
     @property
     def located(self) -> np.ndarray:
-        """Boolean (N,): which rows of `estimates` are located. Reference tags are not: theirs was given."""
+        """Boolean (N,): which rows of `estimates` are located; False for reference tags."""
         is_located = self.estimates["verdict"] == self.estimates.number("verdict", "located")
         return is_located & ~self.estimates["reference"]
 
     @property
     def located_of(self) -> str:
-        """How many tags are located of those whose position was not given, as "9 of 10 tags located"."""
+        """Number of located tags, without reference tags, as text: "9 of 10 tags located"."""
         return f"{int(self.located.sum())} of {int((~self.estimates['reference']).sum())} tags located"
 
     def __str__(self) -> str:
@@ -92,15 +93,16 @@ class Localization:
 
 
 class Run(Localization):
-    """One seed of a scenario, in memory.
+    """A simulation run of a scenario with one seed, in memory.
 
     reads: stamp_ns, reader, antenna, tag, frequency_hz, phase_rad in [0, 2π), rssi_dbm, doppler_hz (NaN
-        where it is not reported); a row a read, in order of time.
-    poses: the antennas' poses as believed: stamp_ns, name, position_m (3,) [m, world],
+        where it is not reported); one row per read, in order of time.
+    poses: believed poses of the antennas: stamp_ns, name, position_m (3,) [m, world],
         quaternion_xyzw (4,), covariance (3, 3) of x, y, yaw (NaN where not stated); a fixed antenna has
         one row.
     truth: see :class:`Truth`.
-    And what :class:`Localization` has.
+
+    The attributes of :class:`Localization` hold the estimates.
     """
 
     def __init__(self, scenario: Scenario, parts: Mapping[str, Any]) -> None:
@@ -119,7 +121,7 @@ class Run(Localization):
                 f"{self.simulated_s:.1f} s, {self.located_of}>")
 
     def localize(self, method: Any = None, **keywords: Any) -> Localization:
-        """The same reads by another method; keywords as of :func:`localize`."""
+        """Locates the tags from the same reads by another method; for keywords see :func:`localize`."""
         from ._reads import localize
 
         return localize(self.reads, self.poses, method, truth=self.truth.tags, scenario=self.scenario,
@@ -128,9 +130,9 @@ class Run(Localization):
 
 @dataclass(frozen=True)
 class Scan:
-    """One scan of a robot's laser: ranges_m (N,) at first_angle_rad + i·angle_step_rad, to the left.
+    """One laser scan of a robot: ranges_m (N,) at first_angle_rad + i·angle_step_rad, counterclockwise.
 
-    A range over most_range_m hit nothing; 0 is invalid.
+    A range above most_range_m means no hit; 0 is an invalid beam.
     """
 
     stamp_s: float
@@ -141,7 +143,7 @@ class Scan:
 
 
 class Simulation:
-    """A scenario step by step, with a robot that you drive if you like.
+    """A simulation that is run step by step, optionally with a robot that you drive.
 
         sim = scenario.simulation(robot="p3at")
         while not sim.finished:
@@ -159,13 +161,13 @@ class Simulation:
         self._told: dict[str, Table] = self._core.take()
 
     def step(self, count: int = 1) -> Table:
-        """Runs `count` time steps and returns the reads that came, as a table (maybe without rows)."""
+        """Runs `count` time steps and returns their reads as a table, which may be empty."""
         self._core.step(count)
         self._told = self._core.take()
         return self._told["reads"]
 
     def run_until(self, time_s: float) -> Table:
-        """Steps to `time_s`, or the end, and returns the reads that came."""
+        """Steps to `time_s` or to the end, and returns the reads of these steps."""
         while self.now_s < time_s and not self.finished:
             self._core.step(1)
         self._told = self._core.take()
@@ -173,63 +175,66 @@ class Simulation:
 
     @property
     def poses(self) -> Table:
-        """The antennas' believed poses of the last step(), as Run.poses."""
+        """Believed poses of the antennas during the last step() or run_until(), as in Run.poses."""
         return self._told["poses"]
 
     @property
     def truth(self) -> Truth:
-        """The truth of the last step()."""
+        """Ground truth of the last step() or run_until()."""
         told = self._told
         return Truth(told["true_antennas"], told["true_robots"], told["true_tags"], told["true_distances"])
 
     def drive(self, forward_m_s: float, turn_rad_s: float) -> None:
-        """The velocity that the robot is to have from now on, as far as its limits let it."""
+        """Commands the robot's forward velocity and turn rate from now on; its limits apply."""
         self._core.drive(forward_m_s, turn_rad_s)
 
     @property
     def now_s(self) -> float:
-        """Time that the next step begins at [s]."""
+        """Time at which the next step begins [s]."""
         return self._core.now_s
 
     @property
     def finished(self) -> bool:
-        """Whether the scenario's duration is over, or all robots have arrived."""
+        """Whether the scenario's duration is over or all robots have arrived."""
         return self._core.finished
 
     @property
     def odometry(self) -> np.ndarray:
-        """(3,) x, y [m], yaw [rad] of the driven robot by its wheels, from where it started."""
+        """Wheel odometry of the driven robot, (3,) x, y [m], yaw [rad] relative to its start pose."""
         return self._core.odometry
 
     @property
     def scan(self) -> Scan | None:
-        """The driven robot's last laser scan."""
+        """The driven robot's last laser scan, or None before the first one."""
         scan = self._core.scan
         return None if scan is None else Scan(*scan)
 
     def robot_pose(self, name: str = "", *, believed: bool = False) -> np.ndarray:
-        """(3,) x, y [m, world], yaw [rad] of a robot: true, or as it believes."""
+        """True or believed pose of a robot: (3,) x, y [m, world], yaw [rad]."""
         return self._core.robot_pose(name or self.robot, believed)
 
     def add_tag(self, tag: str, position_m: Any, rpy_rad: Any = (0, 0, 0)) -> None:
-        """Adds a tag now, of the first tag's kind, at position_m (3,) [m, world]."""
+        """Adds a tag at position_m (3,) [m, world], of the same model as the scenario's first tag."""
         self._core.add_tag(tag, position_m, rpy_rad)
 
     def move_tag(self, tag: str, position_m: Any, rpy_rad: Any = (0, 0, 0)) -> None:
-        """The tag rests there from now on."""
+        """Moves a tag to position_m (3,) [m, world], where it stays at rest."""
         self._core.move_tag(tag, position_m, rpy_rad)
 
     def remove_tag(self, tag: str) -> None:
-        """Takes a tag away."""
+        """Removes a tag."""
         self._core.remove_tag(tag)
 
     def has_tag(self, tag: str) -> bool:
-        """Whether it is there."""
+        """Whether the tag is present."""
         return self._core.has_tag(tag)
 
 
 class Explanation(dict):
-    """Why a tag is read or not: the JSON of ``tagfield explain --json``, as a dict; str() is its text."""
+    """Why a tag is read or not: the JSON of ``tagfield explain --json`` as a dict.
+
+    str() returns the explanation as text.
+    """
 
     def __init__(self, parts: Mapping[str, Any], text: str) -> None:
         super().__init__(parts)
@@ -242,7 +247,7 @@ class Explanation(dict):
 
     @property
     def verdict(self) -> str:
-        """In one line."""
+        """The explanation in one line."""
         return self["verdict"]
 
     def __str__(self) -> str:
@@ -254,12 +259,13 @@ class Explanation(dict):
 
 @dataclass(frozen=True)
 class Layer:
-    """A map at one height.
+    """A coverage map at one height.
 
-    cells: table of shape (rows, columns), y growing with rows, x with columns: power_dbm at the chip (by
-        the paper's model the RSSI), reply_dbm, margin_db, probability, antenna. -400 where nothing
-        arrives.
+    height_m: the height [m, world].
     share_read: share of the cells in which a tag is read.
+    cells: table of shape (rows, columns), with y increasing along rows and x along columns: power_dbm at
+        the chip (with the paper's model the RSSI), reply_dbm, margin_db, probability, antenna. Levels are
+        -400 where no signal arrives.
     """
 
     height_m: float
@@ -268,12 +274,14 @@ class Layer:
 
 
 class Coverage:
-    """Where tags would be read.
+    """Coverage maps: where a tag would be read.
 
     layers: a :class:`Layer` for each height.
-    tags: the scenario's own: tag, verdict (never, intended, also_other, wrong), nearest, antenna (the
-        best one), position_m (3,), nearest_m, power_dbm, reply_dbm, margin_db, probability.
-    x_m, y_m: middles of the columns (columns,) and rows (rows,) [m, world].
+    tags: the scenario's own tags: tag, verdict (never, intended, also_other, wrong), nearest (antenna),
+        antenna (with the greatest margin), position_m (3,), nearest_m, power_dbm, reply_dbm, margin_db,
+        probability. See docs/coverage.md.
+    x_m, y_m: centres of the columns (columns,) and rows (rows,) [m, world].
+    warnings: one line each.
     """
 
     def __init__(self, scenario: Scenario, parts: Mapping[str, Any]) -> None:
@@ -301,10 +309,12 @@ class Coverage:
 class Tracks:
     """Tracks of moving tags.
 
-    tracks: a row a track, or a tag that has none: tag, verdict (tracked, ambiguous, not_tracked), reason,
-        number (1 is best, 0 for none), reads, points, rms_rad, coherence, expected_error_m.
+    tracks: one row per track, or per tag without a track: tag, verdict (tracked, ambiguous, not_tracked),
+        reason, number (1 is best, 0 for none), reads, points, rms_rad, coherence, expected_error_m.
     points: stamp_ns, tag, number, position_m (3,) [m, world], velocity_m_s (3,), covariance (6, 6) of both.
-    passings: stamp_ns, place ("line", or an antenna at rest), tag, sigma_s; in the order of passing.
+    passings: stamp_ns, place ("line" or a fixed antenna), tag, sigma_s; at each place in the order of
+        passing.
+    warnings: one line each.
     """
 
     def __init__(self, parts: Mapping[str, Any]) -> None:
@@ -315,5 +325,5 @@ class Tracks:
         tell(self.warnings)
 
     def order(self, place: str = "line") -> list[str]:
-        """Tags in the order in which they passed a place."""
+        """Tags in the order in which they passed the line or a fixed antenna."""
         return list(self.passings.where(place=place).names("tag"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Worlds and scenarios: from files, or made in Python."""
+"""Worlds and scenarios, loaded from files or created in Python."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from ._warnings import tell
 
 __all__ = ["Outlet", "Scenario", "World", "load", "share"]
 
-_PACKAGE = Path(__file__).absolute().parent  # Links are not followed: the files lie beside them.
+_PACKAGE = Path(__file__).absolute().parent  # Not resolve(): share/ is next to the symbolic links.
 
 
 def share(name: str) -> str:
-    """Path of a file that comes with Tagfield: ``share("scenarios/paper_warehouse.yaml")``.
+    """Path of a file included in Tagfield: ``share("scenarios/paper_warehouse.yaml")``.
 
-    There are ``scenarios/``, ``worlds/`` and ``profiles/``. Raises Error where there is no such file.
+    The folders are ``scenarios/``, ``worlds/`` and ``profiles/``. Raises Error if the file does not exist.
     """
     path = _PACKAGE / "share" / name
     if path.exists():
@@ -32,7 +32,7 @@ def share(name: str) -> str:
 
 
 def threads_of(threads: int | None) -> int:
-    """All of the machine's where None."""
+    """The checked number of threads; None stands for all CPUs."""
     if threads is None:
         return os.cpu_count() or 1
     if not (isinstance(threads, int) and 1 <= threads <= 1024):
@@ -41,12 +41,12 @@ def threads_of(threads: int | None) -> int:
 
 
 class World:
-    """Solids at rest, to simulate in: walls, shelves, people, a floor.
+    """A static world of solids to simulate in: walls, shelves, people, a floor.
 
-    Frames: W is the world, x and y level, z up [m]. ``rpy_rad`` turns about the fixed x, y, z axes in
-    this order. ``material`` is one of ITU-R P.2040's (``concrete``, ``metal``, ``wood``, ``glass``, …) or
-    of the scenario's own; without it, it is guessed from the name, with a warning. Only the physical
-    models use the world.
+    Coordinates are in the world frame W with x and y horizontal and z up [m]. ``rpy_rad`` (roll, pitch,
+    yaw) rotates about the fixed x, y and z axes in this order. ``material`` is a material of ITU-R P.2040
+    (``concrete``, ``metal``, ``wood``, ``glass``, …) or one defined in the scenario; without it, the
+    material is guessed from the name, with a warning. Only the physical models use the world.
 
         hall = tagfield.World()
         hall.box("wall", size_m=(10, 0.2, 4), position_m=(0, 3, 2), material="concrete")
@@ -58,30 +58,30 @@ class World:
 
     def box(self, name: str, size_m: Sequence[float], position_m: Sequence[float],
             rpy_rad: Sequence[float] = (0, 0, 0), material: str | None = None) -> World:
-        """Adds a box with these edge lengths (3,) [m] about its middle at position_m (3,) [m, world]."""
+        """Adds a box with edge lengths size_m (3,) [m] and its centre at position_m (3,) [m, world]."""
         self._core.add_box(name, size_m, position_m, rpy_rad)
         return self._made_of(name, material)
 
     def cylinder(self, name: str, radius_m: float, length_m: float, position_m: Sequence[float],
                  rpy_rad: Sequence[float] = (0, 0, 0), material: str | None = None) -> World:
-        """Adds a cylinder along its z axis about its middle."""
+        """Adds a cylinder along its own z axis, with its centre at position_m (3,) [m, world]."""
         self._core.add_cylinder(name, radius_m, length_m, position_m, rpy_rad)
         return self._made_of(name, material)
 
     def sphere(self, name: str, radius_m: float, position_m: Sequence[float],
                material: str | None = None) -> World:
-        """Adds a sphere."""
+        """Adds a sphere with its centre at position_m (3,) [m, world]."""
         self._core.add_sphere(name, radius_m, position_m)
         return self._made_of(name, material)
 
     def floor(self, height_m: float = 0.0, name: str = "floor", material: str | None = "concrete") -> World:
-        """Adds all that is below height_m."""
+        """Adds a floor that fills everything below height_m [m, world]."""
         self._core.add_floor(name, height_m)
         return self._made_of(name, material)
 
     def mesh(self, name: str, vertices_m: Any, triangles: Any, position_m: Sequence[float] = (0, 0, 0),
              rpy_rad: Sequence[float] = (0, 0, 0), material: str | None = None) -> World:
-        """Adds triangles (M, 3) of indices into vertices_m (N, 3) [m]."""
+        """Adds a triangle mesh: triangles (M, 3) are indices into vertices_m (N, 3) [m]."""
         self._core.add_mesh(name, vertices_m, triangles, position_m, rpy_rad)
         return self._made_of(name, material)
 
@@ -97,49 +97,49 @@ class World:
 
 
 class Outlet:
-    """What an object may do to follow a run in progress; give it as ``outlets=[…]``.
+    """Interface of objects that receive the data of a run in progress, passed as ``outlets=[…]``.
 
-    Any object with some of these methods will do, and so will a function, which gets each read. Stamps
-    never fall. What a method raises ends the run and is raised there.
+    Any object with some of these methods is an outlet, and so is a function, which receives each read.
+    Stamps never decrease. An exception raised by a method ends the run and is raised by it.
     """
 
     def on_read(self, read: _core.Read) -> None:
-        """One read."""
+        """A read."""
 
     def on_update(self, antenna: str, stamp_s: float) -> None:
-        """An antenna's update, after its reads."""
+        """An antenna's update is complete; its reads came before."""
 
     def on_pose(self, pose: _core.Pose) -> None:
-        """Where an antenna is believed to be, at its update."""
+        """An antenna's believed pose at its update."""
 
     def on_antenna_added(self, antenna: str) -> None:
-        """An antenna is there from now on."""
+        """An antenna was added."""
 
     def on_antenna_removed(self, antenna: str) -> None:
-        """An antenna is gone."""
+        """An antenna was removed."""
 
     def on_tag_added(self, place: _core.Place) -> None:
-        """The truth: a tag is there from now on."""
+        """Ground truth: a tag was added."""
 
     def on_tag_moved(self, place: _core.Place) -> None:
-        """The truth: a tag is elsewhere."""
+        """Ground truth: a tag moved."""
 
     def on_tag_removed(self, tag: str) -> None:
-        """The truth: a tag is gone."""
+        """Ground truth: a tag was removed."""
 
     def on_robot_pose(self, pose: _core.Pose) -> None:
-        """The truth: where a robot is."""
+        """Ground truth: a robot's pose."""
 
     def on_antenna_pose(self, pose: _core.Pose) -> None:
-        """The truth: where an antenna is."""
+        """Ground truth: an antenna's pose."""
 
     def on_distance(self, stamp_s: float, antenna: str, tag: str, distance_m: float) -> None:
-        """The truth: the distance [m] behind the read that comes next."""
+        """Ground truth: the distance [m] between antenna and tag for the read that follows."""
 
 
 @dataclass(frozen=True)
 class _Source:
-    """Where a scenario comes from, and what was changed in it."""
+    """Origin of a scenario, and the changes made to it."""
 
     path: str = ""
     text: str = ""
@@ -162,18 +162,17 @@ class _Source:
 
 
 class Scenario:
-    """What to simulate: robots, antennas, tags, a world. Never changes; ``with_()`` gives another.
+    """What to simulate: robots, antennas, tags, a world. Immutable; ``with_()`` returns a changed copy.
 
-    Made from a file by :func:`load`, or in Python with the keys of a scenario's file
-    (docs/scenario.md), each a keyword:
+    Loaded from a file by :func:`load`, or created in Python with the keys of a scenario file
+    (docs/scenario.md) as keywords:
 
         tagfield.Scenario(
             "portal", world=hall, duration_s=2, model="multipath",
             antennas=[{"name": "left", "pose": [0, 1, 1.5, 0, 0, -1.57]}],
             tags=[{"id": "tag1", "position": [0.5, 0, 1]}])
 
-    Raises Error on a key or value that makes no sense; it names the key's path, and the line in
-    :attr:`text`.
+    Raises Error for an invalid key or value, with the key's path and the line in :attr:`text`.
     """
 
     def __init__(self, name: str, *, world: World | str | Mapping[str, Any] | None = None,
@@ -204,12 +203,12 @@ class Scenario:
                 f"{len(self.robots)} robots>")
 
     def with_(self, *changes: str | Mapping[str, Any], **keys: Any) -> Scenario:
-        """The scenario with other values, as ``--set`` of the command has them:
+        """A copy of the scenario with changed values, as by the command's option ``--set``:
 
             scenario.with_({"antennas.mobile.range_m": 5, "tags.tag1.appears_s": 3})
             scenario.with_("pose.source=noisy", seed=3, localization={"method": "sar"})
 
-        Mappings in keywords are merged into what is there; lists replace.
+        Mappings in keywords are merged with the existing values; lists replace them.
         """
         more = _changes("with_", changes, keys)
         source = self._source
@@ -222,7 +221,7 @@ class Scenario:
 
     @property
     def text(self) -> str:
-        """The scenario as it stood in its file, or as it was made here (YAML), without with_()."""
+        """The original scenario as YAML text, without the changes by with_()."""
         if self._source.path:
             return Path(self._source.path).read_text(encoding="utf-8")
         return self._source.text
@@ -239,29 +238,34 @@ class Scenario:
 
     @property
     def tags(self) -> dict[str, np.ndarray]:
-        """Where each tag truly begins: (3,) [m] by ID, in the world, or on the robot that carries it."""
+        """True initial positions (3,) [m] by ID, in the world frame or that of the carrying robot."""
         return self._loaded.tags
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings about it, which were told as :class:`TagfieldWarning` as it was read."""
+        """Warnings about the scenario, which were issued as :class:`TagfieldWarning` on loading."""
         return self._loaded.warnings
 
     def outlines(self, low_m: float = 0.2, high_m: float = 2.0) -> list[tuple[str, list[np.ndarray]]]:
-        """The world from above between two heights [m]: names, and rings of points (N, 2) [m]."""
+        """Outlines of the world between two heights [m], seen from above.
+
+        Returns names with rings of points (N, 2) [m, world].
+        """
         return [(name, [np.asarray(ring) for ring in rings])
                 for name, rings in self._loaded.outlines(low_m, high_m)]
 
     def run(self, seed: int | None = None, *, method: _core.Method | str | None = None,
             locate: bool = True, outlets: Iterable[Outlet | Callable] = (), threads: int | None = None,
             progress: Callable[[float], Any] | None = None) -> Run:
-        """Simulates, locates the tags and judges the estimates, in memory.
+        """Simulates, locates the tags and evaluates the estimates, in memory.
 
-        seed: instead of the scenario's. The same seed gives the same bytes, whatever `threads`.
-        method: instead of the scenario's, by name or one of your own (:func:`method`).
-        locate: False for reads alone.
-        outlets: what gets reads during the run; see :class:`Outlet`.
-        progress: called with 0 … 1 now and then. Ctrl-C ends the run with KeyboardInterrupt.
+        seed: instead of the scenario's. The same seed gives identical bytes for any number of threads.
+        method: instead of the scenario's, a name or a method of your own (:func:`method`).
+        locate: False to simulate reads without localization.
+        outlets: receivers of reads during the run; see :class:`Outlet`.
+        threads: number of threads, by default one per CPU.
+        progress: called now and then with the completed share, 0 to 1. Ctrl-C ends the run with
+            KeyboardInterrupt.
         """
         scenario, own = self._by(method)
         seed = scenario._loaded.seed if seed is None else seed
@@ -272,7 +276,10 @@ class Scenario:
     def run_many(self, seeds: int | Iterable[int], *, method: _core.Method | str | None = None,
                  locate: bool = True, threads: int | None = None,
                  progress: Callable[[float], Any] | None = None) -> list[Run]:
-        """Many seeds in parallel, without Python's lock: ``run_many(100)`` runs 1 to 100."""
+        """Runs many seeds in parallel with the GIL released; ``run_many(100)`` runs seeds 1 to 100.
+
+        For the other arguments see :meth:`run`.
+        """
         scenario, own = self._by(method)
         wanted = list(range(1, seeds + 1)) if isinstance(seeds, int) else list(seeds)
         done = _core.run_seeds(scenario._loaded, wanted, threads_of(threads), locate, own, [], progress)
@@ -281,12 +288,13 @@ class Scenario:
     def simulation(self, seed: int | None = None, *, robot: str = "",
                    policy: Callable[[float], tuple[float, float]] | None = None,
                    outlets: Iterable[Outlet | Callable] = ()) -> Simulation:
-        """The scenario step by step: see :class:`Simulation`.
+        """A simulation to run step by step; see :class:`Simulation`.
 
-        robot: name of the one that you drive, by ``sim.drive(v, w)`` or by `policy`, a function of the
-        time [s] that returns forward velocity [m/s] and turn rate [rad/s]. It believes its wheels
-        (``navigation.odometry``), walls don't stop it, and it never arrives: give the scenario a
-        ``duration_s``.
+        robot: name of the robot that you drive, by ``sim.drive(v, w)`` or by `policy`. Its believed pose
+            is its wheel odometry (``navigation.odometry``). Walls do not stop it, and it never arrives:
+            give the scenario a ``duration_s``.
+        policy: function of the time [s] that returns forward velocity [m/s] and turn rate [rad/s].
+        outlets: receivers of reads during the simulation; see :class:`Outlet`.
         """
         if policy is not None and not robot:
             raise _core.Error("simulation: a policy needs robot=NAME, whom it drives")
@@ -294,9 +302,9 @@ class Scenario:
 
     def explain(self, *, antenna: str = "", tag: str = "", time_s: float = 0.0,
                 seed: int | None = None) -> Explanation:
-        """Why an antenna reads a tag or not at a moment of the run; see docs/explain.md.
+        """Explains why an antenna reads a tag or not at one time of the run; see docs/explain.md.
 
-        antenna: by default the one whose link is the best.
+        antenna: by default the one with the best link.
         """
         text, spoken = _core.explain(self._loaded, antenna, tag, time_s,
                                      self._loaded.seed if seed is None else seed)
@@ -307,12 +315,17 @@ class Scenario:
                  time_s: float | None = None, orientation: str | Sequence[float] = (0, 0, 0),
                  tag_profile: str = "", tag: Mapping[str, Any] | None = None, seed: int | None = None,
                  threads: int | None = None, progress: Callable[[float], Any] | None = None) -> Coverage:
-        """Where a tag would be read, and which of the scenario's own are; see docs/coverage.md.
+        """Maps where a tag would be read, and evaluates the scenario's own tags; see docs/coverage.md.
 
-        heights_m: of the maps, by default the tags'. step_m: of a cell, by default 0.1 m or what takes
-        some ten seconds. region_m: x0, y0, x1, y1, by default the whole world. time_s: that moment alone
-        instead of the whole run. orientation: roll, pitch, yaw [rad] of the tag, or "any", "worst".
-        tag: settings of the tag, as {"sensitivity_dbm": -20}.
+        antennas: names of antennas, by default all.
+        heights_m: heights of the maps, by default those of the tags.
+        step_m: cell size, by default 0.1 m, or larger so that it takes about ten seconds.
+        region_m: x0, y0, x1, y1, by default the world with all antennas and tags.
+        time_s: evaluates a single time instead of the complete run.
+        orientation: roll, pitch, yaw [rad] of the tag, or "any" or "worst".
+        tag_profile: file of the tag's profile, by default the first tag's.
+        tag: settings of the tag, such as {"sensitivity_dbm": -20}.
+        progress: called now and then with the completed share, 0 to 1.
         """
         asked = {
             "antennas": list(antennas), "heights_m": list(heights_m), "step_m": step_m, "time_s": time_s,
@@ -326,38 +339,38 @@ class Scenario:
 
     def link(self, *, antenna: str = "", tag: str = "", time_s: float = 0.0,
              tag_rpy_rad: Sequence[float] = (0, 0, 0)) -> _core.Link:
-        """An antenna's links at a moment, without noise: ``link(x, y, z)``, ``link.batch(places)``.
+        """An antenna's link model at one time, without noise: ``link(x, y, z)``, ``link.batch(places)``.
 
-        The tag is of the kind of `tag` (by default the first) and lies as `tag_rpy_rad` says. Moving
-        bodies, other readers and neighbouring tags are left out.
+        The tag has the model of `tag` (by default the first) and the orientation `tag_rpy_rad` (roll,
+        pitch, yaw). Moving bodies, other readers and neighbouring tags are not included.
         """
         return _core.link(self._loaded, antenna, tag, time_s, tag_rpy_rad)
 
     def track(self, seed: int | None = None, *, threads: int | None = None, **keywords: Any) -> Tracks:
-        """Simulates, and follows the moving tags; keywords as of :func:`track`."""
+        """Simulates the scenario and tracks its moving tags; for keywords see :func:`track`."""
         from ._reads import track
 
         run = self.run(seed, locate=False, threads=threads)
         return track(run.reads, run.poses, scenario=self, threads=threads, **keywords)
 
     def _by(self, method: _core.Method | str | None) -> tuple[Scenario, _core.Method | None]:
-        """Who runs, and by which method of the user's own."""
+        """The scenario to run, and the user's own method, if any."""
         if isinstance(method, str):
             return self.with_({"localization.method": method}), None
         return self, method
 
 
 def load(path: str | os.PathLike, *, skip_missing: bool = False, allow_outside: bool = False) -> Scenario:
-    """Reads a scenario and its world from a YAML file. Raises Error "FILE:LINE: …".
+    """Loads a scenario and its world from a YAML file. Raises Error "FILE:LINE: …".
 
-    With ``skip_missing`` it goes on, with warnings, without models and meshes of the world that are
-    missing or broken; with ``allow_outside`` the world may name files outside of its folder and the model paths.
+    With ``skip_missing``, models and meshes of the world that are missing or broken are left out with a
+    warning. With ``allow_outside``, the world may refer to files outside its folder and the model paths.
     """
     return Scenario._from(_Source(path=os.fspath(path), skip_missing=skip_missing, allow_outside=allow_outside))
 
 
 def _plain(value: Any) -> Any:
-    """NumPy's numbers and arrays, and paths, as Python's."""
+    """NumPy scalars and arrays, and paths, as plain Python values."""
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
     if isinstance(value, os.PathLike):
@@ -373,7 +386,7 @@ def _dumped(value: Any, indent: int | None = None) -> str:
 
 
 def _text_of(content: Mapping[str, Any]) -> str:
-    """JSON, which is YAML: a line for each key, antenna, tag."""
+    """The content as JSON, which is valid YAML, with one line per key, antenna and tag."""
     lines = []
     for key, value in content.items():
         if isinstance(value, (list, tuple)):
@@ -390,7 +403,7 @@ def _value_text(value: Any) -> str:
 
 def _changes(what: str, changes: Iterable[str | Mapping[str, Any]],
              keys: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Of with_() and its like, as the core takes them."""
+    """Changes of with_() and similar functions, as pairs of key path and value for the core."""
     more: list[tuple[str, str]] = []
     for change in changes:
         if isinstance(change, str):
@@ -406,7 +419,7 @@ def _changes(what: str, changes: Iterable[str | Mapping[str, Any]],
 
 
 def _flat(key: str, value: Any) -> list[tuple[str, str]]:
-    """{"pose": {"sigma_m": 1}} as pose.sigma_m=1."""
+    """Flattens {"pose": {"sigma_m": 1}} to pose.sigma_m=1."""
     if isinstance(value, Mapping):
         return [pair for name, inner in value.items() for pair in _flat(f"{key}.{name}", inner)]
     return [(key, _value_text(value))]

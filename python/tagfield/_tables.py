@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Structured arrays with names: what a run, a method or a map gives."""
+"""Tables: structured NumPy arrays with names, in which results are returned."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _AXES = {3: ("x", "y", "z"), 4: ("x", "y", "z", "w")}
 
 
 class Table(np.ndarray):
-    """A NumPy structured array whose columns of names hold numbers.
+    """A NumPy structured array in which names are stored as indices.
 
     A table is an ordinary array: ``reads["phase_rad"]`` is a view of the column, slices and masks are
     tables again, and nothing is copied from the simulation. A column of names (``tag``,
@@ -48,7 +48,7 @@ class Table(np.ndarray):
     def __getitem__(self, index):
         item = super().__getitem__(index)
         if isinstance(item, Table) and item.dtype.names is None:
-            return item.view(np.ndarray)  # A column alone has no names.
+            return item.view(np.ndarray)  # A single column has no named fields.
         return item
 
     @property
@@ -62,17 +62,17 @@ class Table(np.ndarray):
         return self["stamp_ns"] * 1e-9
 
     def names(self, column: str) -> np.ndarray:
-        """The names in a column, as strings of the table's shape; "" where there is none."""
+        """The names in a column, as an array of strings of the table's shape; "" where there is none."""
         known = np.array([*self._known(column), ""], dtype=object)
         return known[np.asarray(self[column])]
 
     def number(self, column: str, name: str) -> int:
-        """The index of ``name`` in a column, or -1 if the column does not have it."""
+        """The index that stands for ``name`` in a column, or -1 if the column does not have the name."""
         known = self._known(column)
         return known.index(name) if name in known else -1
 
     def where(self, **names: str | list[str] | tuple[str, ...]) -> Table:
-        """The rows with these names: ``reads.where(tag="tag3", antenna=["left", "right"])``."""
+        """Selects rows by names: ``reads.where(tag="tag3", antenna=["left", "right"])``."""
         rows = np.ones(self.shape, dtype=bool)
         for column, wanted in names.items():
             wanted = [wanted] if isinstance(wanted, str) else wanted
@@ -82,9 +82,9 @@ class Table(np.ndarray):
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a pandas.DataFrame.
 
-        Columns of names become categories; a position (3,) becomes three columns ``x_m``, ``y_m``,
-        ``z_m`` (with the column's own name before them where that is not ``position_m``); matrices
-        become columns with their indices; ``time_s`` comes first where there are stamps.
+        Columns of names become categoricals; a position (3,) becomes three columns ``x_m``, ``y_m``,
+        ``z_m`` (prefixed with the column's own name unless it is ``position_m``); matrices become
+        columns with their indices; ``time_s`` is the first column if there are stamps.
         """
         import pandas
 
@@ -109,7 +109,7 @@ class Table(np.ndarray):
 
 
 def _split(column: str, values: np.ndarray) -> dict[str, np.ndarray]:
-    """A column of vectors or matrices as several columns."""
+    """Splits a column of vectors or matrices into several columns."""
     if values.ndim == 2 and values.shape[1] in _AXES:
         name, _, unit = column.rpartition("_")
         if column == "quaternion_xyzw":
@@ -125,7 +125,7 @@ def _split(column: str, values: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def frame_of(csv: str) -> pandas.DataFrame:
-    """A table of the command's, as CSV text, as a pandas.DataFrame."""
+    """Converts CSV text, as written by the command, to a pandas.DataFrame."""
     import pandas
 
     return pandas.read_csv(io.StringIO(csv), keep_default_na=False, na_values=[""])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is odd, but usable, as Python's warnings."""
+"""Warnings about suspicious but usable input, as Python warnings."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ _HERE = os.path.dirname(os.path.abspath(__file__)) + os.sep
 
 
 class TagfieldWarning(UserWarning):
-    """Something odd, but usable: a setting without effect, materials guessed from names.
+    """Warning about suspicious but usable input: a setting without effect, materials guessed from names.
 
-    The same lines are in the ``warnings`` of what they are about. Python shows each once for a line of code;
-    ``warnings.simplefilter("error", tagfield.TagfieldWarning)`` makes them errors.
+    The same lines are in the attribute ``warnings`` of the scenario or result. Python shows each once per
+    line of code; ``warnings.simplefilter("error", tagfield.TagfieldWarning)`` turns them into errors.
     """
 
 
 def tell(lines: Iterable[str]) -> None:
-    """Warns of each line, at the caller's line outside of this package."""
+    """Issues each line as a warning, attributed to the caller's line outside this package."""
     level, frame = 2, sys._getframe(1)
     while frame is not None and frame.f_code.co_filename.startswith(_HERE):
         frame = frame.f_back

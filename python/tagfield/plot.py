@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Figures by matplotlib: each function draws into `ax`, or a new figure, and returns the Axes.
+"""Plots with matplotlib: each function draws into `ax`, or into a new figure, and returns the Axes.
 
-Colours are distinct without red against green; ordered quantities are on one perceptual scale (viridis).
+Colours are safe for colour-blind readers; ordered quantities use the perceptually uniform scale viridis.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["bench", "coverage", "errors", "hall", "phase", "rssi", "sar_image", "tracks", "world"]
 
-# Okabe and Ito's colours, which people of all kinds of sight tell apart.
+# The colour-blind-safe palette of Okabe and Ito.
 _BLUE, _ORANGE, _GREEN, _PURPLE, _GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#8a8a8a"
 _SERIES = (_BLUE, _ORANGE, _GREEN, _PURPLE, "#56B4E9", "#E69F00", "#4d4d4d", "#F0E442")
 
@@ -34,14 +34,14 @@ def _axes(ax: Axes | None, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
 
 
 def _plan(ax: Axes) -> None:
-    """A floor plan: with equal scales."""
+    """Labels the axes of a floor plan and gives them equal scales."""
     ax.set_aspect("equal")
     ax.set_xlabel("x [m]")
     ax.set_ylabel("y [m]")
 
 
 def world(scenario: Scenario, ax: Axes | None = None, low_m: float = 0.2, high_m: float = 2.0) -> Axes:
-    """The scenario's world from above, between two heights [m]."""
+    """Draws outlines of the scenario's world between two heights [m], seen from above."""
     ax = _axes(ax)
     for _, rings in scenario.outlines(low_m, high_m):
         closed = [np.vstack([ring, ring[:1]]) for ring in rings if len(ring) > 2]
@@ -56,7 +56,7 @@ def world(scenario: Scenario, ax: Axes | None = None, low_m: float = 0.2, high_m
 
 
 def hall(run: Run, ax: Axes | None = None, *, legend: bool = True) -> Axes:
-    """The hall from above: the antennas' path, true positions, estimates and candidates."""
+    """Draws the floor plan with antenna paths, true positions, estimates and candidates of the tags."""
     ax = world(run.scenario, _axes(ax))
     for antenna in dict.fromkeys(run.poses.names("name")):
         track = run.poses.where(name=antenna)["position_m"]
@@ -87,19 +87,19 @@ def _estimates(found: Localization, ax: Axes) -> None:
 
 
 def _legend(ax: Axes) -> None:
-    """Each label once, beside the picture."""
+    """Adds a legend to the right of the axes, with each label once."""
     handles, labels = ax.get_legend_handles_labels()
     unique = dict(zip(labels, handles, strict=True))
     ax.legend(unique.values(), unique.keys(), loc="upper left", bbox_to_anchor=(1.02, 1.0), frameon=False)
 
 
 def phase(run: Run, tag: str, ax: Axes | None = None, *, antenna: str = "") -> Axes:
-    """The reported phase of a tag over time, a colour for each antenna."""
+    """Plots the reported phase of a tag over time, with one colour per antenna."""
     return _over_time(run, tag, antenna, "phase_rad", "phase [rad]", ax)
 
 
 def rssi(run: Run, tag: str, ax: Axes | None = None, *, antenna: str = "") -> Axes:
-    """The reported RSSI of a tag over time, a colour for each antenna."""
+    """Plots the reported RSSI of a tag over time, with one colour per antenna."""
     return _over_time(run, tag, antenna, "rssi_dbm", "RSSI [dBm]", ax)
 
 
@@ -122,7 +122,10 @@ def _over_time(run: Run, tag: str, antenna: str, column: str, label: str, ax: Ax
 
 
 def errors(results: Localization | Sequence[Localization] | dict[str, Any], ax: Axes | None = None) -> Axes:
-    """The share of located tags up to each error: of one result, of many as one, or by label."""
+    """Plots the cumulative distribution (CDF) of the errors of located tags.
+
+    results: one result, a sequence of results that are pooled, or either by label.
+    """
     groups = results if isinstance(results, dict) else {"": results}
     ax = _axes(ax, (7.0, 4.0))
     for color, (label, group) in zip(_SERIES, groups.items(), strict=False):
@@ -148,7 +151,10 @@ _QUANTITIES = {"probability": ("read probability", 0.0, 1.0), "margin_db": ("mar
 
 def coverage(covered: Coverage, quantity: str = "probability", layer: int = 0,
              ax: Axes | None = None) -> Axes:
-    """A map of read probability, margin_db, power_dbm or reply_dbm at one height."""
+    """Draws a coverage map of probability, margin_db, power_dbm or reply_dbm at one height.
+
+    layer: index of the height in ``covered.layers``.
+    """
     if quantity not in _QUANTITIES:
         raise Error(f"plot: '{quantity}' is none of {', '.join(_QUANTITIES)}")
     ax = _axes(ax)
@@ -183,7 +189,7 @@ def coverage(covered: Coverage, quantity: str = "probability", layer: int = 0,
 
 def sar_image(run: Run, tag: str, ax: Axes | None = None, *, radius_m: float = 1.0,
               step_m: float = 0.02) -> Axes:
-    """The matched filter of a tag's phases (tagfield.sar.image) around its true position."""
+    """Draws the SAR image (matched filter, tagfield.sar.image) of a tag around its true position."""
     ax = _axes(ax, (6.0, 5.0))
     places = run.truth.places_m()
     if tag not in places:
@@ -206,7 +212,7 @@ def sar_image(run: Run, tag: str, ax: Axes | None = None, *, radius_m: float = 1
 
 
 def tracks(found: Tracks, ax: Axes | None = None, scenario: Scenario | None = None) -> Axes:
-    """The best track of each tag from above, with an arrow at its end."""
+    """Draws the best track of each tag, seen from above, with an arrow at its end."""
     ax = _axes(ax, (8.0, 4.0)) if scenario is None else world(scenario, _axes(ax, (8.0, 4.0)))
     best = found.points[found.points["number"] == 1]
     tags = list(dict.fromkeys(best.names("tag")))
@@ -224,7 +230,7 @@ def tracks(found: Tracks, ax: Axes | None = None, scenario: Scenario | None = No
 
 
 def bench(compared: Bench, ax: Axes | None = None, column: str = "mean_m") -> Axes:
-    """A heat map of conditions by methods: the mean error, or another column of bench.csv."""
+    """Draws a heat map of the mean error, or another column of bench.csv, by condition and method."""
     rows = compared.to_pandas().pivot(index="condition", columns="name", values=column)
     order = list(dict.fromkeys(compared.to_pandas()["condition"]))
     names = list(dict.fromkeys(compared.to_pandas()["name"]))

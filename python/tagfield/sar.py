@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Synthetic aperture: an image of where a tag's phases fit together."""
+"""Synthetic aperture radar (SAR): an image of how coherently a tag's phases add up."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _LIGHT_M_S = 299_792_458.0
 
 
 def antenna_places(reads: Table, poses: Table) -> np.ndarray:
-    """(N, 3) where each read's antenna was believed to be [m, world]: straight between two poses.
+    """(N, 3) believed antenna position [m, world] at each read, interpolated linearly between poses.
 
-    An antenna with one pose stands still. NaN before the first pose and after the last.
+    An antenna with a single pose is fixed. NaN before the first pose and after the last.
     """
     places = np.full((len(reads), 3), np.nan)
     for antenna in np.unique(reads.names("antenna")):
@@ -39,8 +39,8 @@ def image(reads: Table, poses: Table, tag: str, x_m: Any, y_m: Any, height_m: fl
 
         I(p) = (1/M) Σ_a,f |Σ_n exp(j (φ_n − 4π f |p − a_n| / c))|
 
-    summed coherently over the reads n of one antenna a on one carrier f, whose phase offset is unknown,
-    and over these by magnitude; M is the number of reads. 1 where all phases fit.
+    The sum is coherent over the reads n of one antenna a on one carrier f, whose phase offset is unknown,
+    and by magnitude over antennas and carriers; M is the number of reads. It is 1 where all phases fit.
     """
     of_tag = reads.where(tag=tag)
     places = antenna_places(of_tag, poses)
@@ -60,7 +60,7 @@ def image(reads: Table, poses: Table, tag: str, x_m: Any, y_m: Any, height_m: fl
 
 def _sum(phases: np.ndarray, places: np.ndarray, carrier_hz: float, grid: np.ndarray,
          height_m: float) -> np.ndarray:
-    """Coherent sum over the reads, a read at a time: memory of one image."""
+    """Coherent sum over the reads, one read at a time, so that it needs memory for one image only."""
     total = np.zeros(grid.shape[:2], dtype=complex)
     wave = 4.0 * np.pi * carrier_hz / _LIGHT_M_S
     for phase, place in zip(phases, places, strict=True):

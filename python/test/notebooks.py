@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs all notebooks of a folder by nbconvert, one after another in one kernel.
+"""Runs all notebooks of a folder with nbconvert, one after another in one kernel.
 
     notebooks.py FOLDER [OUT]
 
-With OUT each is written there as HTML, figures and all, to be looked at.
+With OUT, each is written there as HTML with its figures, for inspection.
 """
 
 import pathlib
@@ -24,7 +24,7 @@ def main():
     out = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
     paths = sorted(folder.glob("*.ipynb"))
     failures = 0 if paths else 1
-    # One kernel for all: to start one and to load matplotlib takes longer than most notebooks.
+    # One kernel for all: starting one and loading matplotlib takes longer than most notebooks.
     together = nbformat.v4.new_notebook()
     counts = []
     for path in paths:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads of any origin located by any method; methods in Python, compared."""
+"""Localization of reads from any source by any method; methods in Python and their comparison."""
 
 import numpy as np
 import pytest

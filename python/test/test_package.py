@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the package promises: stubs, docstrings, figures."""
+"""Stubs, docstrings and plots of the package."""
 
 import ast
 import inspect

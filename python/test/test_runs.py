@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs in memory: what is in them, and that it is what the command writes."""
+"""Runs in memory: their content, and that it equals the files written by the command."""
 
 import csv
 import os
@@ -198,7 +198,7 @@ def test_other_threads_go_on_and_interrupts_end_it(scenario):
         os.kill(os.getpid(), signal.SIGINT)
 
     ticker = threading.Thread(target=tick)
-    # What a shell starts in the background has interrupts ignored.
+    # A shell starts background processes with SIGINT ignored.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         ticker.start()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenarios and worlds made in Python; links, explanations, maps; stepping."""
+"""Scenarios and worlds created in Python; links, explanations, coverage maps; stepped simulation."""
 
 import math
 import warnings

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A wheel of what is built, installed into an environment of its own and used there.
+"""Builds a wheel from an existing build, installs it into a separate folder and uses it there.
 
     wheel.py SOURCE BUILD
 """
@@ -24,7 +24,7 @@ def main():
     source, build = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
     with tempfile.TemporaryDirectory(prefix="tagfield-wheel-") as name:
         folder = pathlib.Path(name)
-        copy = folder / "source"  # setuptools leaves its own things beside the sources.
+        copy = folder / "source"  # setuptools writes its own files next to the sources.
         copy.mkdir()
         for item in ("CMakeLists.txt", "LICENSE", "README.md", "pyproject.toml", "python", "setup.py"):
             (copy / item).symlink_to(source / item)

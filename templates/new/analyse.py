@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the scenario with several seeds and shows where tags were found, and how far off.
+"""Runs the scenario with several seeds and plots estimated tag positions and their errors.
 
     python3 analyse.py [SEEDS]
 
@@ -12,7 +12,7 @@ import sys
 import matplotlib
 import numpy
 
-matplotlib.use("Agg")  # figures go to files; without this line and with show() they open as windows
+matplotlib.use("Agg")  # writes figures to files; remove this line and call show() for windows
 import tagfield
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -21,11 +21,11 @@ HERE = pathlib.Path(__file__).resolve().parent
 def main():
     seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     scenario = tagfield.load(HERE / "NAME.yaml")
-    # As --set on the command line: a robot that knows where it is to 1 cm.
+    # Like --set on the command line: a pose error of 1 cm.
     scenario = scenario.with_({"pose.source": "noisy", "pose.sigma_m": 0.01})
     runs = scenario.run_many(seeds)
 
-    # Reads are a NumPy array: one row a read, columns by name.
+    # Reads are a NumPy array: one row per read, columns by name.
     reads = runs[0].reads
     for index, tag in enumerate(reads.categories["tag"]):
         rssi_dbm = reads["rssi_dbm"][reads["tag"] == index]

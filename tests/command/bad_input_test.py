@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Bad input gets one clear line and exit code 2, and leaves nothing behind; odd input a warning.
+"""Invalid input gives a one-line error and exit code 2, and leaves no files; suspicious input a warning.
 
-Each fault is one line of a table: what is changed in an input that works, and what the complaint
-must say. With --show the complaints are printed, for people to judge their words.
+Each fault is one line of a table: the change to a valid input, and the expected error message. With
+--show, the messages are printed for review.
 """
 
 import os
@@ -106,7 +106,7 @@ ANTENNA_SENSOR = """\
 """
 WORLD_WITH_SENSORS = WORLD.replace("      </link>", ANTENNA_SENSOR + "      </link>")
 
-# A hall of 8 m by 5 m about the origin, with a pen of 2 m by 2 m in its corner without a door.
+# A hall of 8 m by 5 m around the origin, with an enclosure of 2 m by 2 m without a door in its corner.
 HALL_BOXES = ((0, 2.6, 8.4, 0.2), (0, -2.6, 8.4, 0.2), (4.1, 0, 0.2, 5.4), (-4.1, 0, 0.2, 5.4),
               (1.9, 1.5, 0.2, 2.0), (2.9, 0.4, 2.2, 0.2))
 HALL = """\
@@ -156,7 +156,7 @@ free_thresh: 0.196
 
 
 def hall_pgm(grey=None):
-    """The hall's map; all of one grey where that is given."""
+    """The hall's map as PGM, or an image of a single grey value."""
     columns, rows = 84, 54
     def grey_at(column, row):
         x, y = -4.2 + 0.1 * (column + 0.5), 2.7 - 0.1 * (row + 0.5)
@@ -202,10 +202,10 @@ endsolid s
 """
 
 
-# --- What a complaint must be ---------------------------------------------------------------------
+# --- Expected error messages ----------------------------------------------------------------------
 
 def stranger(context):
-    """An output folder with files of an earlier run and of somebody else."""
+    """An output folder with files of an earlier run and an unrelated file."""
     out = context.folder / "out"
     if not out.exists():
         context.write("out/report.html", "old page")
@@ -217,7 +217,7 @@ def stranger(context):
 
 
 def expect_complaint(context, name, arguments, says, line=None, file=None):
-    """Runs the program and checks that it complains as it should, and touches nothing."""
+    """Runs the program and checks its error message, and that it changes no files."""
     before = files_in(context.folder)
     result = context.run(*arguments, timeout=60)
     if context.show:
@@ -244,7 +244,7 @@ def expect_complaint(context, name, arguments, says, line=None, file=None):
 
 
 def line_of(text, part):
-    """1-based line in which a part of the text begins."""
+    """1-based line at which a part of the text begins."""
     return text[:text.index(part)].count("\n") + 1
 
 
@@ -255,14 +255,14 @@ def expect_bad_scenario(context, name, text, says, line=None, settings=()):
 
 
 def replaced(text, old, new):
-    """`text` with one occurrence replaced; the table's own mistakes must not pass for a fault."""
+    """`text` with its only occurrence of `old` replaced; fails if there is not exactly one."""
     assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in the base input"
     return text.replace(old, new)
 
 
 def expect_bad_change(context, old, new, says, line_part=None):
-    """The base scenario with `old` replaced; complains about the line of the change, or the first
-    one with `line_part`."""
+    """Checks the base scenario with `old` replaced; the error must name the line of the change, or the
+    first one with `line_part`."""
     text = replaced(SCENARIO, old, new)
     line = line_of(text, line_part) if line_part else line_of(SCENARIO, old)
     expect_bad_scenario(context, new.strip().replace("\n", "⏎"), text, says, line)
@@ -272,7 +272,7 @@ def expect_bad_change(context, old, new, says, line_part=None):
 
 @case
 def the_base_inputs_are_good(context):
-    """Otherwise each case below could pass for a wrong reason."""
+    """The unchanged inputs are valid; otherwise each case below could pass for a wrong reason."""
     path = context.write("base.yaml", SCENARIO)
     context.run_well("run", path, "--out", context.folder / "out")
     world = context.write("hall.sdf", WORLD_WITH_SENSORS)
@@ -340,7 +340,7 @@ def unknown_keys(context):
 POSITIVE = "must be greater than 0"
 NOT_NEGATIVE = "must be 0 or more"
 ANY = None
-NUMBERS = (  # the line of the base scenario that holds it: which numbers it takes
+NUMBERS = (  # a line of the base scenario, and the numbers that it accepts
     ("time_step_s: 0.01", POSITIVE), ("duration_s: 1", POSITIVE), ("real_time: 0", NOT_NEGATIVE),
     ("wheel_radius_m: 0.1", POSITIVE), ("track_m: 0.4", POSITIVE),
     ("    speed_m_s: 0.5", POSITIVE), ("most_turn_rad_s: 1.0", POSITIVE),
@@ -362,7 +362,7 @@ def numbers_out_of_their_range(context):
         key = line.split(":")[0]
         wrong = {".nan": "finite", ".inf": "finite", "seven": "expected a number",
                  "1e300": "within ±100000" if key.endswith("_m") else "within ±1e+15"}
-        if "range_m" in key:  # All are read by the same hand, so the rest is tried on one.
+        if "range_m" in key:  # All numbers have the same parser, so the rest is tested for one.
             wrong.update({"-.inf": "finite", "[1]": "must be a number", "1e999": "", '""': "number",
                           "1_000": "number", "0x": "number", "-0.0": POSITIVE, "7 m": "number"})
         if allowed:
@@ -375,7 +375,7 @@ def numbers_out_of_their_range(context):
 
 @case
 def settings_of_methods(context):
-    """Out of their range, or of methods that are not used: refused with file and line."""
+    """Settings out of range, or of methods that are not used, are rejected with file and line."""
     line = "stride_m: 0.3"
     for value, says in ((".nan", "finite"), ("seven", "finite number"), ("0", "must be over 0"),
                         ("-1", "must be over 0"), ("1e300", "at most 100000")):
@@ -389,7 +389,7 @@ def settings_of_methods(context):
 
 @case
 def numbers_beyond_reason(context):
-    """Finite and positive, yet not to be simulated: refused at once, not after a year."""
+    """Finite and positive numbers that are impossible to simulate are rejected immediately."""
     for line, value in (("time_step_s: 0.01", "1e-10"), ("time_step_s: 0.01", "1e10"),
                         ("duration_s: 1", "1e10"), (" appears_s: 0", "1e10"),
                         ("disappears_s: 0.9", "1e10")):
@@ -400,13 +400,13 @@ def numbers_beyond_reason(context):
                               ("rate_hz: 15", "1e-12", "rate_hz must be from"),
                               ("frequency_hz: 865.7e6", "1e-300", "wavelength")):
         key = line.split(":")[0]
-        # Found where the antenna as a whole is judged.
+        # Reported for the line of the antenna, as several of its keys are involved.
         expect_bad_change(context, line, f"{key}: {value}", says, "- name: mast")
 
 
 @case
 def places_beyond_any_hall(context):
-    """Within what a number may be, yet nothing that a page could draw: nothing of it is committed."""
+    """Valid numbers, but positions that are too far away to be drawn: no results are written."""
     for old, new, element in (
             ("position: [1, 2, 1]", "position: [1, 1e15, 1]", "tags[0].position"),
             ("start: [0, 0, 0]", "start: [-2e5, 0, 0]", "robots[0].start"),
@@ -456,7 +456,7 @@ def lists_and_words_of_the_wrong_kind(context):
             ("lift: {travel_m: 0.5, speed_m_s: 0.1}", "lift: {speed_m_s: 1}", "has no 'travel_m'")):
         path = replaced(SCENARIO, old, new)
         expect_bad_scenario(context, new.strip() or f"without {old.strip()}", path, says)
-        # The complaint must name the line, or the one where what lacks something begins.
+        # The error must name a line: that of the fault, or that where the incomplete element begins.
         complaint = context.run("check", context.folder / "bad.yaml").err
         check("bad.yaml:" in complaint, f"{new or old!r}: names no line: {complaint!r}")
     expect_bad_scenario(context, "robots is a mapping", "robots: {name: a}\n", "must be a list", 1)
@@ -617,7 +617,7 @@ def arguments(context):
 # --- Worlds ---------------------------------------------------------------------------------------
 
 def expect_bad_world(context, name, text, says, line=None, file="hall.sdf"):
-    """By `check` and by `run`, which must say the same."""
+    """Checks an invalid world with `check` and `run`, which must give the same error."""
     if text is not None:
         context.write("hall.sdf", text)
     scenario = replaced(SCENARIO, "robots:", "world: {path: hall.sdf}\nrobots:")
@@ -701,7 +701,7 @@ figures:
 
 @case
 def physics_that_cannot_be(context):
-    """Each names what is wrong, the allowed range or words, and its line."""
+    """Each error states the fault, the allowed range or words, and the line."""
     context.write("hall.sdf", HALL)
     context.write("tag.yaml", TAG_PROFILE)
     context.write("reader.yaml", READER_PROFILE)
@@ -858,7 +858,7 @@ def two_tags_of_one_name_in_world_and_scenario(context):
                      ["run", path, "--out", stranger(context)], "door")
 
 
-# --- Robots that find their way by themselves -----------------------------------------------------
+# --- Robots that navigate autonomously ------------------------------------------------------------
 
 def write_hall(context):
     context.write("hall.sdf", HALL)
@@ -939,7 +939,7 @@ def ways_to_find_that_make_no_sense(context):
 
 @case
 def goals_that_cannot_be_reached(context):
-    """Each is refused with a reason, and the robot goes on to the next."""
+    """Each goal is rejected with a reason, and the robot continues with the next."""
     write_hall(context)
     goals = {"off the map": (9, 0), "on an obstacle": (1.9, 1.5), "to an obstacle": (-3.8, 0),
              "no path there": (3, 1.5)}
@@ -1020,7 +1020,7 @@ def malformed_reads_poses_and_heights(context):
         (context.folder / name).rmdir()
 
 
-# --- Where to write, and what to draw again -------------------------------------------------------
+# --- Output folders and reports -------------------------------------------------------------------
 
 @case
 def output_folders_that_cannot_be_written(context):
@@ -1050,7 +1050,7 @@ def a_read_only_output_folder(context):
 
 @case
 def a_bad_input_makes_no_folder_full(context):
-    """Where the output folder was not there before, nothing is in it afterwards."""
+    """If the output folder did not exist before, it is empty afterwards."""
     bad = context.write("bad.yaml", replaced(SCENARIO, "range_m: 7", "range_m: -7"))
     context.write("poses.csv", POSES)
     context.write("reads.csv", READS.replace("1.1,", "x,"))
@@ -1103,7 +1103,7 @@ def reports_on_broken_folders(context):
         shutil.rmtree(folder)
 
 
-# --- Odd but usable -------------------------------------------------------------------------------
+# --- Warnings -------------------------------------------------------------------------------------
 
 def warnings_of(result):
     for line in result.err.splitlines():
@@ -1197,7 +1197,7 @@ def a_tag_never_read_cannot_be_localized(context):
 
 @case
 def output_that_cannot_be_printed(context):
-    """A full device is told of, and a closed standard output is no place for files to go to."""
+    """A full device is reported, and files are not written to the descriptor of a closed stdout."""
     path = context.write("good.yaml", SCENARIO)
     for words in (["check", path], ["check", path, "--json"], ["--version"]):
         with open("/dev/full", "w", encoding="utf-8") as full:
@@ -1216,7 +1216,7 @@ def output_that_cannot_be_printed(context):
 
 @case
 def what_never_ends(context):
-    """Files without an end, nests without a bottom, runs of years."""
+    """Endless files, endless nesting, runs of years."""
     context.run_well("run", context.write("good.yaml", SCENARIO), "--set", "duration_s=0.3",
                      "--no-page", "--out", "out")
     endless = {"one line": "head -c 300000000 /dev/zero | tr '\\0' x", "YAML": "yes 'a: 1'",
@@ -1250,7 +1250,7 @@ def what_never_ends(context):
 
 @case
 def files_larger_than_allowed(context):
-    # Without the key that noisy poses leave idle, of which there would be a warning.
+    # Without a key that has no effect with noisy poses and would cause a warning.
     path = context.write("good.yaml", SCENARIO.replace("  wheel_noise: 0.01\n", ""))
     words = f'ulimit -f 4; "{context.tagfield}" run "{path}" --out o'
     done = subprocess.run(["bash", "-c", words], cwd=context.folder, capture_output=True, text=True,
@@ -1263,7 +1263,7 @@ def files_larger_than_allowed(context):
 
 @case
 def more_than_there_is_memory_for(context):
-    """Little memory stands for a table that is larger than that of the machine."""
+    """A low memory limit simulates a table that is larger than the machine's memory."""
     if "TAGFIELD_SANITIZED" in os.environ:
         raise Skip("a sanitizer needs more memory for itself")
     rows = "".join(f"{0.01 * i:.2f},r,a,one,865700000,1.0,-50\n" for i in range(300_000))

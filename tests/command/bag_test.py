@@ -46,7 +46,7 @@ def a_bag_gives_what_its_tables_give(context):
     check_near(summary["error_m"]["mean"], run["pose_error"]["error_with_true_pose_m"]["mean"],
                1e-4, "the mean error with the true pose")
     check_between(summary["error_m"]["max"], 0.0, 0.3, "the greatest error")
-    # Beside it, the same reads with the wheels' poses, as the run itself had them.
+    # The comparison: the same reads with poses by wheel odometry, as in the run itself.
     compared = summary["compared_pose"]
     check_equal(compared["pose"], "odometry", "compared_pose.pose")
     check_equal(compared["located"], run["located"], "compared_pose.located")
@@ -142,7 +142,7 @@ def moving_tags_have_no_one_place(context):
     moved = [{tag["id"]: tag["moved"] for tag in read_json(where / "summary.json")["tags"]}
              for where in (context.folder / "bag", folder)]
     check_equal(moved[0], moved[1], "which tags moved")
-    # A run has a row for each update, a bag's folder one for each change.
+    # A run has one row per update, the results of a bag one per change.
     last = {}
     changes = []
     for row in read_csv(folder / "truth/tags.csv"):
@@ -186,12 +186,12 @@ def the_published_plugins_bag_is_read(context):
 
 
 def files_with_times(folder):
-    """Every file under a folder with its size and when it was written."""
+    """Every file under a folder with its size and modification time."""
     return {path: (path.stat().st_size, path.stat().st_mtime_ns) for path in folder.rglob("*")}
 
 
 def expect_complaint(context, arguments, *parts):
-    """Exit code 2, one line with all `parts`, and nothing written."""
+    """Expects exit code 2, one line with all `parts`, and no files written."""
     before = files_with_times(context.folder)
     result = context.run(*arguments, "--out", context.folder / "never")
     check_equal(result.code, 2, f"{arguments}: exit code")
@@ -219,7 +219,7 @@ def bad_bags_get_one_line(context):
     write_bag(context.folder / "nan.bag", [("/rfid/reads", bags.genpy.Time(1, 0), nan)])
     poseless = RunBag(context.source, folder).messages(truth=False, belief=False)
     write_bag(context.folder / "poseless.bag", poseless)
-    # A recording that was cut off: what rosbag leaves before it writes the index.
+    # A truncated recording, as rosbag leaves it before it writes the index.
     unindexed = bytearray(whole)
     place = unindexed.index(b"index_pos=") + len(b"index_pos=")
     unindexed[place:place + 8] = bytes(8)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rosbags from a run's folder, or from messages given one by one, written by Python's rosbag."""
+"""Rosbags from a run's folder, or from single messages, written by Python's rosbag."""
 
 import functools
 import pathlib
@@ -23,13 +23,13 @@ SEPARATOR = "=" * 80
 
 
 def require_rosbag():
-    """Skips the case where Python's rosbag is not there."""
+    """Skips the case if Python's rosbag is not installed."""
     if genpy is None:
         raise Skip(f"Python's rosbag is not there ({WHY})")
 
 
 def message_texts(source):
-    """The text of each message by name, the project's own and those that they hold."""
+    """The definition of each message by name, for the project's own and those that they contain."""
     texts = {}
     adapters = source / "adapters"
     for path in (*adapters.glob("*/msg/*.msg"), *adapters.glob("ros1/*/msg/*.msg")):
@@ -41,7 +41,7 @@ def message_texts(source):
 
 
 def held_by(name, texts):
-    """Names of the messages that a message's fields hold, and theirs, each once."""
+    """Names of the messages that a message contains, directly or indirectly, each once."""
     found = []
     for kind in re.findall(r"^\s*([A-Z][\w/]*|\w+/\w+)(?:\[\d*\])?\s+\w+", texts[name], re.MULTILINE):
         package = "std_msgs" if kind == "Header" else name.split("/", maxsplit=1)[0]
@@ -54,7 +54,7 @@ def held_by(name, texts):
 
 @functools.lru_cache
 def message_types(source):
-    """Classes of the project's own messages, by name: {"tagfield_msgs/TagReads": …}."""
+    """Classes of the project's messages, by name: {"tagfield_msgs/TagReads": …}."""
     texts = message_texts(source)
     classes = {}
     for name in texts:
@@ -67,7 +67,7 @@ def message_types(source):
 
 
 def time_of(text):
-    """Decimal seconds as genpy's Time, exactly."""
+    """Decimal seconds converted exactly to genpy's Time."""
     seconds, _, nanos = text.partition(".")
     return genpy.Time(int(seconds), int(nanos.ljust(9, "0")))
 
@@ -84,7 +84,7 @@ def transform_of(parent, child, stamp, pose):
 
 
 class RunBag:
-    """Writes a run's folder as the bag that its robot would have recorded."""
+    """Converts a run's folder to the bag that its robot would have recorded."""
 
     def __init__(self, source, folder):
         self.types = message_types(source)
@@ -165,6 +165,6 @@ def write_bag(path, messages, compression="none"):
     """Writes (topic, receipt, message) in the order given."""
     with rosbag.Bag(str(path), "w", compression=compression, chunk_threshold=64 * 1024) as bag:
         for topic, receipt, message in messages:
-            # A bag has no time 0.
+            # Bags do not support time 0.
             bag.write(topic, message, max(receipt, genpy.Time(0, 1)))
     return path

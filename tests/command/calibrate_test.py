@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""`tagfield calibrate` as a user meets it: a log with faults put in, the profile, its use."""
+"""`tagfield calibrate` end to end: a log with known errors, the estimated profile, its use."""
 
 import math
 import statistics
@@ -13,7 +13,7 @@ KNOWN = 6
 
 
 def turned(quaternion, vector):
-    """The vector turned by the quaternion (x, y, z, w)."""
+    """The vector rotated by the quaternion (x, y, z, w)."""
     x, y, z, w = quaternion
     u, v, t = vector
     # v + 2 q × (q × v + w v)
@@ -23,7 +23,7 @@ def turned(quaternion, vector):
 
 
 def write_faulty(context, run):
-    """The run's log as of a robot that has its antenna's place and its clock wrong."""
+    """The run's log with an error in the antenna's mounting position and in the clock."""
     rows = ["stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw"]
     for row in read_csv(run / "antenna_poses.csv"):
         quaternion = [float(row[key]) for key in ("qx", "qy", "qz", "qw")]
@@ -47,7 +47,7 @@ def write_tags(context, run):
 
 
 def errors_of(run, located, known):
-    """Of the other tags that are located."""
+    """Errors of the located tags, without the known ones."""
     truth = {row["tag"]: position(row) for row in read_csv(run / "truth/tags.csv")}
     return [math.dist(position(row), truth[row["tag"]])
             for row in read_csv(located / "estimates.csv")
@@ -74,7 +74,7 @@ def a_calibration_finds_the_faults_and_takes_them_out(context):
     after = errors_of(run, context.folder / "after", known)
     check_equal(len(after), len(read_csv(run / "truth/tags.csv")) - KNOWN,
                 "tags located with the calibration")
-    # Without it late stamps are noticed, and nothing is claimed.
+    # Without it, delayed stamps are detected, and no tag is located.
     check(not before or statistics.mean(after) < 0.5 * statistics.mean(before),
           f"errors before and after: {before} m, {after} m")
     check(statistics.mean(after) < 0.01, f"errors after: {after} m")
@@ -134,7 +134,7 @@ def bad_input_is_told_in_one_line(context):
 
 @case
 def a_profile_by_hand_is_applied(context):
-    # Half a metre along the antenna's x: the pose's row must move by that.
+    # Half a metre along the antenna's x axis: poses must move by that.
     run = context.simulate("paper_warehouse", "--no-page")
     profile = context.write("hand.yaml", "name: by hand\nkind: calibration\nantennas:\n  mobile:\n"
                                          "    place_m: {x: {value: 0.5}, y: {value: 0},"

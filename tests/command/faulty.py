@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The program with something going wrong around it: faults.c, signals, limits."""
+"""Fault injection for the program: faults.c, signals, limits."""
 
 import os
 import pathlib
@@ -8,12 +8,12 @@ import subprocess
 
 from common import Skip, clean_environment
 
-# They hold how long something took.
+# Files that include wall times.
 TIMED = ("summary.json", "report.html", "tracks.json")
 
 
 def fault_library(folder):
-    """Builds faults.c into a folder; gives the library's path."""
+    """Builds faults.c in a folder and returns the library's path."""
     source = pathlib.Path(__file__).parent / "faults.c"
     library = folder / "faults.so"
     if "TAGFIELD_SANITIZED" in os.environ:
@@ -26,7 +26,7 @@ def fault_library(folder):
 
 
 def environment_with(library, fault=None, count_file=None):
-    """For a program that the fault is to meet."""
+    """The environment of a program into which the fault is injected."""
     environment = clean_environment() | {"LD_PRELOAD": str(library)}
     if fault is not None:
         environment["FAULT"] = fault
@@ -36,19 +36,19 @@ def environment_with(library, fault=None, count_file=None):
 
 
 def counts_in(count_file):
-    """How often each call was made, by its name."""
+    """Number of calls by name."""
     lines = count_file.read_text(encoding="ascii").splitlines()
     return {name: int(count) for name, count in (line.split() for line in lines)}
 
 
 def is_left_over(name):
-    """Whether a file is what a killed program leaves beside results, for the next to clear away."""
+    """Whether a file is a leftover of a killed program, which the next run removes."""
     parts = pathlib.PurePath(name).parts
     return any(part.startswith("incomplete-") or ".tagfield-" in part or part.endswith(".partial")
                for part in parts)
 
 
 def result_in(files):
-    """Of files by path: what does not depend on how long it took, and which there are."""
+    """The result among files by path, without leftovers and without content that includes wall times."""
     return {name: None if pathlib.PurePath(name).name in TIMED else content
             for name, content in files.items() if not is_left_over(name)}

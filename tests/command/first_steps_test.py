@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What one meets first: the version, the command alone, slips, `new`, `doctor`, and `check` of all kinds of files."""
+"""First steps: --version, no arguments, typos, `new`, `doctor`, and `check` of all kinds of files."""
 
 import json
 import os
@@ -20,7 +20,7 @@ def version_says_what_was_built_of_what(context):
     told = json.loads(context.run_well("--version", "--json").out)
     check_equal(told["version"], number, "version")
     cache = (context.build / "CMakeCache.txt").read_text(encoding="utf-8")
-    # Asked for, they are still left out where their libraries are missing.
+    # Even if enabled, they are left out if their libraries are missing.
     for part, variable, made in (("ros1", "TAGFIELD_ROS1:BOOL", "lib/tagfield/rosbag.so"),
                                  ("ros2", "TAGFIELD_ROS2:BOOL", "adapters/ros2/libtagfield_ros2_topics.a")):
         asked_for = f"{variable}=ON" in cache
@@ -51,7 +51,7 @@ def the_command_alone_says_what_to_do_next(context):
     for words in ("tagfield run ", "tagfield new ", "tagfield localize ", "tagfield doctor", "--help"):
         check_in(words, result.out, "tagfield alone")
     check(len(result.out.splitlines()) < 20, "it is long")
-    # What it says to run is there.
+    # The suggested scenario exists.
     scenario = re.search(r"tagfield run (\S+)", result.out).group(1)
     context.run_well("check", scenario)
 
@@ -80,7 +80,7 @@ def new_runs_as_it_is(context):
     check_equal(sorted(path.name for path in folder.iterdir()), ["analyse.py", "my_hall.sdf", "my_hall.yaml"], "files")
     for path in folder.iterdir():
         check("NAME" not in path.read_text(encoding="utf-8"), f"a placeholder is left in {path.name}")
-    # What it says to do next works, as it stands.
+    # The suggested next commands work.
     steps = re.findall(r"^  tagfield (\w+) (\S+)$", result.out, re.MULTILINE)
     check_equal([step[0] for step in steps], ["check", "run"], "steps")
     for command, scenario in steps:
@@ -123,11 +123,11 @@ def doctor_says_what_it_found(context):
     for key, finding in found.items():
         check(finding["what"], f"{key} says nothing")
         check_equal(bool(finding["how_to_get"]), not finding["works"], f"whether {key} says how to get it")
-    # Asked another way.
+    # The same by another method.
     numpy = run(["python3", "-c", "import numpy; print(numpy.__version__)"])
     if numpy.code == 0:
         check_in(f"numpy {numpy.out.strip()}", found["python"]["what"], "python")
-    # Where there is nothing to be found.
+    # With an empty PATH.
     text = subprocess.run([context.tagfield, "doctor"], cwd=context.folder, check=True, capture_output=True, text=True,
                           env={"PATH": "/nonexistent", "CYCLONEDDS_URI": os.environ.get("CYCLONEDDS_URI", "")}).stdout
     works, rest = text.split("Not here, and how to get it")

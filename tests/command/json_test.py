@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""`--json` of each command that has results: what it prints is what it writes."""
+"""`--json` of each command with results: the printed JSON equals the written files."""
 
 import contextlib
 import json
@@ -68,7 +68,7 @@ def written_files_are_named(context):
 
 @contextlib.contextmanager
 def started(context, *arguments):
-    """What a server prints first, as JSON."""
+    """The first output of a server, as JSON."""
     command = [str(word) for word in (context.tagfield, *arguments, "--http", "0", "--json")]
     with subprocess.Popen(command, cwd=context.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.DEVNULL, env=clean_environment()) as process:

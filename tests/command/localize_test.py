@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""`tagfield localize` of tables: all methods, what is known beforehand, and reads as they come from
-real readers: other clocks, gaps, repeats, disorder, several carriers.
+"""`tagfield localize` of tables: all methods, prior knowledge, and reads like those of real readers:
+different clocks, gaps, duplicates, disorder, several carriers.
 
-The reads are made here, by eq. 3 of the paper along an S, so that the places are known.
+The reads are synthetic, by eq. 3 of the paper along an S-shaped path, so that the positions are known.
 """
 
 import cmath
@@ -25,13 +25,13 @@ ANTENNA = "a"
 
 
 def path(seconds):
-    """Where the antenna is after so long: along an S at about 0.3 m/s."""
+    """The antenna's position at a time [s], on an S-shaped path at about 0.3 m/s."""
     x = 0.28 * seconds
     return x, 0.5 * math.sin(x), HEIGHT
 
 
 def pose_rows(antenna=ANTENNA, begin=0.0, end=24.0, shift=0.0, error=lambda seconds: (0.0, 0.0)):
-    """Rows of a table of poses at 15 Hz, off by `error`."""
+    """Rows of a table of poses at 15 Hz, with the position error `error`."""
     rows = []
     for i in range(int(round(begin * 15)), int(round(end * 15)) + 1):
         x, y, z = path(i / 15)
@@ -57,7 +57,7 @@ def read_rows(tags, antenna=ANTENNA, shift=0.0, carrier=lambda i: CARRIER, offse
 
 
 def localize(context, reads, poses, *arguments, covariance=False):
-    """The result, the estimates by tag (best candidate), and summary.json."""
+    """Runs localize; returns the result, the estimates by tag (best candidate), and summary.json."""
     more = ",cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw" if covariance else ""
     context.write("reads.csv", "\n".join(
         ["stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm", *reads]) + "\n")
@@ -95,7 +95,7 @@ def every_method_by_name(context):
     told = context.run_well("localize", "--help").out
     for line in listed:
         check_in(line, told, "localize --help")
-    # Below each method stand its settings.
+    # Each method is followed by its settings.
     names = [line.split()[0] for line in listed if not line.startswith(" ")]
     for name in names:
         _, _, summary = localize(context, read_rows(TAGS), pose_rows(), "--method", name,
@@ -155,8 +155,8 @@ def reads_without_phases_are_located_by_strength(context):
 
 @case
 def a_portal_of_fixed_antennas(context):
-    """A log as of LLRP in the FCC's band, RSSI by a law of 34 dB, phases of which nobody knows the
-    offsets: placed by strength, and said what is missing."""
+    """A log like that of an LLRP reader in the FCC band, with RSSI falling by 34 dB per decade and phases
+    with unknown offsets: tags are located by RSSI, and missing knowledge is reported."""
     noise = random.Random(3)
     corners = {"1": (0, 0), "2": (0, 4), "3": (4, 4), "4": (4, 0)}
     tags = {f"t{i}": (noise.uniform(0.3, 3.7), noise.uniform(0.3, 3.7)) for i in range(20)}
@@ -181,7 +181,7 @@ def a_portal_of_fixed_antennas(context):
     check(all(ratio < 5 for ratio in ratios), f"error over expected: {ratios}")
 
 
-# --- What is known beforehand ---------------------------------------------------------------------
+# --- Prior knowledge ------------------------------------------------------------------------------
 
 @case
 def heights_are_estimated_on_a_side(context):
@@ -196,7 +196,7 @@ def heights_are_estimated_on_a_side(context):
 
 @case
 def tags_of_unknown_height_are_warned_of(context):
-    """As many as there are, but for references, and none where all heights are known."""
+    """The warning counts tags without reference tags; there is none if all heights are known."""
     reads = read_rows(TAGS)
     context.write("known.csv", "tag,x_m,y_m,z_m\none,2,2.5,1\n")
     first, *others = (tag for tag in TAGS if tag != "one")
@@ -223,7 +223,7 @@ def reference_tags_and_offsets(context):
     check((context.folder / "out/reference_tags.csv").exists(), "no reference_tags.csv")
     check_equal(summary["located"], 2, "tags located, the reference tag aside")
     check_in("2 located, 0 ambiguous, 0 not located (1 reference tag given)", result.out, "result")
-    # A known offset turns phases into distances: it narrows, a wrong one spoils.
+    # A known offset turns phases into distances: it reduces the covariance; a wrong one spoils the result.
     reads = read_rows(TAGS, offset=2.5)
     covariance = {}
     for words in ([], ["--offset", "2.5"], ["--offset", "a=2.5"]):
@@ -299,11 +299,11 @@ def bad_words_for_what_is_known(context):
         check_in(says, result.err, str(words))
 
 
-# --- Reads as they come ---------------------------------------------------------------------------
+# --- Imperfect reads ------------------------------------------------------------------------------
 
 @case
 def clocks_that_differ(context):
-    """One antenna's reads are stamped since 1970, its poses since the start; the other is well."""
+    """One antenna's reads have stamps since 1970, its poses since the start; the other is consistent."""
     reads = (read_rows({"one": TAGS["one"], "two": TAGS["two"]}) +
              read_rows({"lost": TAGS["three"]}, antenna="b", shift=1.7e9))
     poses = pose_rows() + pose_rows("b")
@@ -359,13 +359,13 @@ def rows_out_of_order_and_twice(context):
 
 
 def stamped(rows, stamp_of):
-    """The rows with other stamps [s], by a function of those they have."""
+    """The rows with stamps [s] changed by a function."""
     return [f"{stamp_of(float(stamp)):.6f},{rest}"
             for stamp, rest in (row.split(",", 1) for row in rows)]
 
 
 def check_memory(what):
-    """Of any program so far; 25 MB do for these tables. A sanitizer needs more for itself."""
+    """Checks the peak memory of all programs so far; these tables need 25 MB, sanitizers more."""
     if "TAGFIELD_SANITIZED" in os.environ:
         return
     most = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
@@ -374,7 +374,7 @@ def check_memory(what):
 
 @case
 def one_row_with_a_wrong_clock(context):
-    """Since 1970 where the others are of today, or the reverse: at most that row is lost."""
+    """A stamp near 1970 among present ones, or the reverse: at most that row is lost."""
     for clock, wrong in ((1.7e9, 0.0), (0.0, 1.7e9)):
         reads, poses = read_rows(TAGS, shift=clock), pose_rows(shift=clock)
         bad_reads = reads[:500] + stamped(reads[500:501], lambda _: wrong) + reads[501:]
@@ -398,14 +398,14 @@ def one_row_with_a_wrong_clock(context):
 
 @case
 def pauses(context):
-    """Of a day or a year in the middle, and of an hour forty times."""
+    """Pauses of a day or a year in the middle, and forty pauses of an hour."""
     def pauses_of(count, seconds):
         return lambda stamp: stamp + seconds * math.floor(stamp / 24.1 * (count + 1))
     reads, poses = read_rows(TAGS), pose_rows(error=lambda t: (0.01 * math.sin(t / 3), 0.0))
     for sigma in ((), ("--pose-sigma", "0.01")):
         for method in METHODS:
             _, expected, without = localize(context, reads, poses, "--method", method, *sigma)
-            # Only of poses whose error nobody states, by methods that don't estimate it.
+            # Only for poses without a stated error, and methods that do not estimate it.
             said = ["as exact" in warning for warning in without["warnings"]]
             check_equal(said, [] if sigma or method in ("auto", "joint") else [True], f"{method}: warnings {without['warnings']}")
             for count, seconds in ((1, 86400), (1, 365 * 86400), (40, 3600)):
@@ -424,7 +424,7 @@ def pauses(context):
 
 @case
 def stamps_that_are_no_time(context):
-    """Beyond 146 years from 0 the time between two stamps might not be one."""
+    """Stamps beyond 146 years from 0, whose differences could overflow."""
     for shift in (9.1e9, -9.1e9):
         for name in ("reads.csv", "poses.csv"):
             reads, poses = read_rows(TAGS), pose_rows()
@@ -495,11 +495,11 @@ def bad_numbers_name_file_and_line(context):
               "something was written")
 
 
-# --- Other people's tables ------------------------------------------------------------------------
+# --- Third-party tables ---------------------------------------------------------------------------
 
 def adarf_folder(context, tags):
-    """A folder of tables as AdaRF's experiments have them: 50 stops of 2 cm, 8 channels, a byte order
-    mark, no clock. Each tag's field comes by an echo, too."""
+    """A folder of tables like AdaRF's experiments: 50 stops of 2 cm, 8 channels, a byte order mark, no
+    clock. Each tag has a second propagation path."""
     noise = random.Random(9)
     offsets = [noise.uniform(0, 2 * math.pi) for _ in range(8)]
     for stop in range(50):
@@ -608,7 +608,7 @@ def sides_and_boxes_choose_between_mirror_images(context):
 
 
 def turned(rows):
-    """Reads as of a right-circular antenna that looks to its left, along y, and a wire at 45° along the path."""
+    """Reads of a wire at 45° along the path by a right-circular antenna with its boresight along y."""
     more = []
     for row in rows:
         values = row.split(",")
@@ -618,7 +618,7 @@ def turned(rows):
         wire = (0.5 ** 0.5, 0, 0.5 ** 0.5)
         along = sum(a * b for a, b in zip(u, wire))
         across = [w - along * a for w, a in zip(wire, u)]
-        # Its left is −x, as it looks along y.
+        # Left of the boresight is −x, as it points along y.
         turn = -2 * math.atan2(-across[0], across[2])
         values[5] = f"{(float(values[5]) + turn) % (2 * math.pi):.6f}"
         more.append(",".join(values))
@@ -682,7 +682,7 @@ def the_folder_of_a_run_is_its_tables(context):
 
 @case
 def reads_that_do_not_fit_in_memory(context):
-    """In parts on the disk: the same estimates where tags are located one by one, and nothing left behind."""
+    """In parts on disk: identical estimates for methods that locate tags one by one, and no leftovers."""
     context.write("known.csv", "tag,x_m,y_m,z_m\none,2,2.5,1\n")
     reads = read_rows(TAGS)
     for method in ("hyperbola", "ml", "sar"):
@@ -696,7 +696,7 @@ def reads_that_do_not_fit_in_memory(context):
         check_equal((context.folder / "out/report.html").read_bytes(), whole, f"{method}: page")
         check_equal((context.folder / "out/reads.csv").read_bytes(), (context.folder / "reads.csv").read_bytes(),
                     "the table as it was")
-    # Of a tag with more reads than a part every second counts.
+    # For a tag with more reads than a part, only every second read is used.
     result, estimates, _ = localize(context, reads, pose_rows(), "--part-reads", "200", "--method", "ml")
     check_located(estimates, TAGS, "every second read")
     check_in("3 tags have over 200 reads, up to 360: only every second", result.err, "warning")
@@ -721,7 +721,7 @@ def reads_that_do_not_fit_in_memory(context):
 
 @case
 def reads_that_are_not_kept(context):
-    """Of a table of over 100 MB, which is read anew each time: the same results, and the table as it was."""
+    """A table of over 100 MB is read again each time: identical results, and the table is unchanged."""
     reads = read_rows(TAGS)
     words = ("--method", "joint")
     _, expected, _ = localize(context, reads, pose_rows(), *words)
@@ -739,7 +739,7 @@ def reads_that_are_not_kept(context):
 
 @case
 def a_known_world_and_how_well(context):
-    """Of a run its world is known to the letter; of tables to a centimetre, or as the command line says."""
+    """The world of a run is known exactly; for tables to a centimetre, or as stated on the command line."""
     scenario = context.shipped("warehouse_physics")
     run = context.simulate("warehouse_physics", "--record-only", "--set", "duration_s=40")
     lines = (run / "reads.csv").read_text(encoding="utf-8").splitlines()

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reads and events over MQTT, with the real broker mosquitto: nothing is lost while it restarts.
+"""Reads and events over MQTT, with a real mosquitto broker: no loss while the broker restarts.
 
     mqtt_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
 """
@@ -45,7 +45,7 @@ def until(condition, what, seconds=20):
 
 
 class Broker:
-    """mosquitto on a port of loopback that keeps sessions over its own end."""
+    """mosquitto on a loopback port, with sessions that persist over restarts."""
 
     def __init__(self, context, settings="allow_anonymous true\n"):
         self.program = shutil.which("mosquitto", path="/usr/sbin:/usr/bin:/usr/local/sbin")
@@ -83,13 +83,13 @@ def broker_of(context, settings="allow_anonymous true\n"):
 
 @contextlib.contextmanager
 def subscriber(context, broker, *words):
-    """What comes, as lines "TOPIC PAYLOAD" of a file that grows."""
+    """Subscribes to all topics; messages are appended to a file as lines "TOPIC PAYLOAD"."""
     file = context.folder / "heard.txt"
     with open(file, "wb") as out:
         process = subprocess.Popen(
             ["mosquitto_sub", "-h", "127.0.0.1", "-p", str(broker.port), "-q", "1", "-c", "-i",
              "listener", "-t", "tagfield/#", "-v", *words], stdout=out, stderr=subprocess.DEVNULL)
-    # The broker tells each that subscribes what it keeps.
+    # The subscription is active as soon as a message arrives.
     publish = ["mosquitto_pub", "-h", "127.0.0.1", "-p", str(broker.port), *words, "-t",
                "tagfield/ready", "-m", "yes"]
     def is_ready():
@@ -105,7 +105,7 @@ def subscriber(context, broker, *words):
 
 
 def check_same(heard, lines, what):
-    """As check_equal(), without printing thousands of lines."""
+    """Like check_equal(), without printing thousands of lines."""
     same = [a == b for a, b in zip(heard, lines)]
     first = same.index(False) if False in same else len(same)
     check(heard == lines, f"{what}: {len(heard)}, expected {len(lines)}; the first {first} agree")
@@ -117,7 +117,7 @@ def stream(context, *words):
 
 
 def check_whole(heard, lines, most_twice):
-    """Each line came once, or some of them twice, as quality of service 1 allows."""
+    """Checks that each line was received once, or some of them twice, as QoS 1 allows."""
     counts = collections.Counter(heard)
     missing = [line for line in lines if line not in counts]
     check_equal(len(missing), 0, "reads that never came")
@@ -137,7 +137,7 @@ def reads_and_events_come_under_their_topics(context):
         lines = out.splitlines()
         until(lambda: len([t for t, _ in heard() if "/reads/" in t]) >= len(lines), "all is heard")
         reads = [payload for topic, payload in heard() if topic == "tagfield/reads/gate"]
-        # In the order of the run, and the same as on the standard output.
+        # In the order of the run, and identical to the standard output.
         check_same(reads, lines, "reads")
         events = [json.loads(payload) for topic, payload in heard() if topic == "tagfield/events"]
         kinds = collections.Counter(event["eventType"] for event in events)
@@ -161,7 +161,7 @@ def nothing_is_lost_while_the_broker_restarts(context):
         check("lost" not in err, f"it says {err!r}")
         lines = out.splitlines()
         until(lambda: len({payload for _, payload in heard()}) >= len(lines), "all is heard")
-        # 200 can be under way when the connection breaks.
+        # 200 messages can be in flight when the connection breaks.
         check_whole([payload for _, payload in heard()], lines, 200)
 
 
@@ -193,7 +193,7 @@ def what_there_is_no_room_for_is_counted(context):
     for line in lines:
         check_equal(program.stdout.readline().rstrip(), line, "a read")
     took = time.monotonic() - begin
-    # It waits for the broker at its end alone.
+    # It waits for the broker only at its end.
     check(took < 5.0, f"{took:.1f} s beside a broker that is away, {alone:.1f} s alone")
     err = program.stderr.read()
     check_equal(program.wait(timeout=20), 2, "exit code")

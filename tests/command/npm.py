@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Packages of npm's that tests use: what others made, to check ours against."""
+"""npm packages that tests use as independent references."""
 
 import fcntl
 import functools
@@ -9,7 +9,7 @@ from common import Skip, run
 
 
 def npm(words, folder, what):
-    """Runs npm in `folder`; skips the case where that can't be done."""
+    """Runs npm in `folder`; skips the case if that is not possible."""
     for program in ("node", "npm"):
         if shutil.which(program) is None:
             raise Skip(f"{program} is missing (scripts/setup --tests installs it)")
@@ -21,14 +21,14 @@ def npm(words, folder, what):
 
 @functools.cache
 def npm_packages(build, here, name, then=None):
-    """The folder under `build` with what package-lock.json in the folder `here` names, and with what `then(folder)`
-    adds; installed if need be, by one program at a time. Skips the case where that can't be had."""
+    """The folder under `build` with the packages of package-lock.json in the folder `here`, and with what
+    `then(folder)` adds; installed if necessary, by one process at a time. Skips the case if that fails."""
     folder = build / "tests" / name
     folder.mkdir(parents=True, exist_ok=True)
     lock = (here / "package-lock.json").read_bytes()
     installed = folder / "installed.json"
     with open(folder / "installing.lock", "wb") as alone:
-        fcntl.flock(alone, fcntl.LOCK_EX)  # `npm ci` clears the packages that another test is using
+        fcntl.flock(alone, fcntl.LOCK_EX)  # `npm ci` removes packages that another test may be using
         if not installed.exists() or installed.read_bytes() != lock:
             for file in ("package.json", "package-lock.json"):
                 shutil.copy(here / file, folder)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""`tagfield plan`, inventories, and what leaves antennas out: outputs, resuming, bad input."""
+"""`tagfield plan`, inventories, and runs without some antennas: outputs, resuming, invalid input."""
 
 import base64
 import hashlib
@@ -56,7 +56,7 @@ def a_plan_is_a_folder_and_its_layout_runs(context):
     check_equal(len(read_csv(out / "plan_antennas.csv")), 6, "rows of antennas")
     check_equal(len(read_csv(out / "plan_places.csv")), 30, "rows of places")
     before = files_in(out)
-    # What is computed is taken from there, and gives the same, with any number of threads.
+    # Cached links give the same result, with any number of threads.
     context.run_well(*arguments, "--threads", "1")
     check(files_in(out) == before, "files differ when planned again")
     run = context.folder / "run"
@@ -81,7 +81,7 @@ def aims_at_reads_and_at_places(context):
     plan = read_json(context.folder / "room/plan.json")
     check_equal((plan["chosen_antennas"], plan["reaches_aim"], plan["check"]["inside"]), (3, True, 2), "room")
     places = read_csv(context.folder / "room/plan_places.csv")
-    # Two antennas leave two places for each tag.
+    # With two antennas, each tag has two possible positions.
     check(all(place["error_m_2"] == "" for place in places), "errors by two antennas")
     check(all(0.0 < float(place["error_m_3"]) < 0.03 for place in places), "errors by three")
     page = (context.folder / "room/plan.html").read_text(encoding="utf-8")

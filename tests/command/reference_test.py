@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Completion of shells and pages of the manual: they have what --help has, and shells and man take them."""
+"""Shell completion and man pages: they agree with --help, and shells and man accept them."""
 
 import re
 import shutil
@@ -8,7 +8,7 @@ import subprocess
 
 from common import Skip, case, check, check_equal, check_in, main, run
 
-# What bash does when Tab is pressed behind these words, with the real `complete` and `compgen`.
+# Completion in bash as by pressing Tab after these words, with the real `complete` and `compgen`.
 TAB = r"""
 source "$1"; shift
 [[ "$(complete -p tagfield)" == 'complete -F _tagfield tagfield' ]] || exit 1
@@ -19,13 +19,13 @@ printf '%s\n' "${COMPREPLY[@]}"
 
 
 def commands(context):
-    """Names of all commands, as --help lists them."""
+    """Names of all commands in --help."""
     section = context.run_well("--help").out.split("Subcommands:\n")[1].split("\n\n")[0]
     return re.findall(r"^  (\w+) ", section, re.MULTILINE)
 
 
 def options(context, command):
-    """Long names of a command's options, as its --help lists them."""
+    """Long names of a command's options in its --help."""
     text = context.run_well(command, "--help").out
     return set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", text, re.MULTILINE))
 
@@ -38,7 +38,7 @@ def script(context, shell):
 
 
 def tab(context, *words):
-    """What bash offers for the last of the words."""
+    """Completions by bash for the last of the words."""
     result = run(["bash", "--norc", "-c", TAB, "bash", script(context, "bash"), *words], cwd=context.folder)
     check_equal(result.code, 0, f"exit code of completing {words} ({result.err!r})")
     return set(result.out.split("\n")) - {""}

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A run's truth, replayed, gives the run's reads again, byte for byte."""
+"""Replaying the ground truth of a run reproduces its reads byte for byte."""
 
 from common import case, check, check_equal, check_in, main
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Every shipped scenario runs and gives what it promises; the files of a run hold together."""
+"""Every shipped scenario runs with the documented results; the files of a run are consistent."""
 
 import collections
 import math
@@ -28,7 +28,7 @@ HALF_WIDTH_M = 0.25
 ROBOT_BAND_M = (0.1, 0.6)
 
 
-# --- Geometry, on its own -------------------------------------------------------------------------
+# --- Geometry -------------------------------------------------------------------------------------
 
 def distance_to_segment(p, a, b):
     along = (b[0] - a[0], b[1] - a[1])
@@ -41,7 +41,7 @@ def distance_to_segment(p, a, b):
 
 
 def is_inside(p, rings):
-    """By the even-odd rule over all rings."""
+    """Whether a point is inside, by the even-odd rule over all rings."""
     inside = False
     for ring in rings:
         for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1]):
@@ -51,7 +51,7 @@ def is_inside(p, rings):
 
 
 def clearance(p, rings):
-    """Distance from a point to a silhouette, 0 inside it."""
+    """Distance from a point to a silhouette; 0 inside it."""
     if is_inside(p, rings):
         return 0.0
     return min(distance_to_segment(p, a, b)
@@ -68,7 +68,7 @@ def is_near_box(p, box, margin):
 
 
 def least_clearance(places, silhouettes, far=1.0):
-    """The smallest clearance of any place, and from what; `far` where all are further off."""
+    """The smallest clearance of any position, and the object; `far` if all are further away."""
     low, high = ROBOT_BAND_M
     least = (far, "nothing")
     for silhouette in silhouettes:
@@ -85,7 +85,7 @@ def path_length(places):
     return sum(math.dist(a, b) for a, b in zip(places, places[1:]))
 
 
-# --- What the files of a run must say, whatever the scenario --------------------------------------
+# --- Files of a run, for any scenario -------------------------------------------------------------
 
 def tags_of(summary):
     return {tag["id"]: tag for tag in summary["tags"]}
@@ -99,7 +99,7 @@ def by_antenna(rows):
 
 
 def robot_places(folder):
-    """Where each robot went, as a list of x, y."""
+    """The path of each robot, as a list of x, y."""
     places = collections.defaultdict(list)
     for row in read_csv(folder / "truth/robot_poses.csv"):
         places[row["robot"]].append(position(row)[:2])
@@ -152,7 +152,7 @@ def check_statistics(summary):
 
 
 def check_summary(folder, method="hyperbola"):
-    """Checks summary.json against itself and the other files, and gives it back."""
+    """Checks summary.json for consistency with itself and other files, and returns it."""
     summary = read_json(folder / "summary.json")
     check_equal(set(summary), SUMMARY_KEYS, "keys of summary.json")
     for tag in summary["tags"]:
@@ -191,7 +191,7 @@ def check_run_folder(folder, method="hyperbola"):
 
 
 def check_estimates_csv(folder):
-    """estimates.csv says what summary.json says."""
+    """Checks that estimates.csv agrees with summary.json."""
     summary = tags_of(read_json(folder / "summary.json"))
     rows = read_csv(folder / "estimates.csv")
     check_equal({row["tag"] for row in rows}, set(summary), "tags in estimates.csv")
@@ -271,7 +271,7 @@ def aws_warehouse_over_100_seeds(context):
     check_clear_path(folder)
 
 
-# What docs/mapping.md and docs/localization_on_map.md say that the robot reaches.
+# The figures in docs/mapping.md and docs/localization_on_map.md.
 def check_navigation(summary):
     navigation = summary["navigation"]
     check_equal(summary["pose"], "slam", "pose")
@@ -288,7 +288,7 @@ def check_navigation(summary):
 
 
 def check_methods(folder, summary):
-    """The pose's error estimated with the tags, beside the paper's method."""
+    """Method joint, which estimates the pose error with the tags, compared with the paper's method."""
     check_equal(summary["method_asked"], "auto", "method_asked")
     check_in("the pose is not exact", summary["method_why"], "method_why")
     joint, hyperbola = summary["compared_methods"]
@@ -330,7 +330,7 @@ def paper_warehouse_slam(context):
 
 @case
 def warehouse_physics(context):
-    """Everything on: what is read, and that what is claimed of the tags is true."""
+    """All effects enabled: the reads, and the correctness of the located tags."""
     folder = context.simulate("warehouse_physics")
     summary = read_json(folder / "summary.json")
     reads = read_csv(folder / "reads.csv")
@@ -351,7 +351,7 @@ def warehouse_physics(context):
 
 @case
 def warehouse_physics_broken_down(context):
-    """Without any effect the phase is exact; each that is added may only cost."""
+    """Without any effect, the phase is exact; each added effect can only increase errors."""
     folder = context.simulate("warehouse_physics", "--breakdown", "--set", "duration_s=30",
                               "--set", "localization.known_world=false")
     rows = read_json(folder / "summary.json")["effects"]
@@ -371,7 +371,7 @@ def z_axis(context):
     folder = context.simulate("z_axis")
     summary = check_run_folder(folder)
     heights = [position(row)[2] for row in read_csv(folder / "truth/antenna_poses.csv")]
-    # The lift is seen at the antenna's updates: 0.35 m/s for half of 1/15 s short of each end.
+    # The lift is sampled at the antenna's updates: up to half of 1/15 s at 0.35 m/s short of each end.
     check_between(max(heights) - min(heights), 1.5 - 0.35 / 15, 1.5 + 1e-6, "travel of the antenna")
     check_between(min(heights), 0.5 - 1e-6, 0.52, "lowest place of the antenna")
     steps = [abs(b - a) for a, b in zip(heights, heights[1:])]
@@ -412,7 +412,7 @@ def two_antennas(context):
 
 
 def interpolated(rows, stamp):
-    """Straight between rows [t, x, y, z]; held before the first and after the last."""
+    """Linear interpolation between rows [t, x, y, z]; constant before the first and after the last."""
     if stamp <= rows[0][0]:
         return rows[0][1:]
     for a, b in zip(rows, rows[1:]):
@@ -423,7 +423,7 @@ def interpolated(rows, stamp):
 
 
 def places_by_stamp(folder):
-    """(stamp, tag) → where truth/tags.csv has it."""
+    """(stamp, tag) → position in truth/tags.csv."""
     return {(row["stamp_s"], row["tag"]): position(row)
             for row in read_csv(folder / "truth/tags.csv")}
 
@@ -470,7 +470,7 @@ def moving_tags(context):
             worst_place = max(worst_place, math.dist(place, expected))
         worst_distance = max(worst_distance, abs(math.dist(place, antennas[read["antenna"]]) -
                                                  distances[stamp, read["antenna"], tag]))
-    # Files hold micrometres; the rounding of a place and of a distance can add up.
+    # Files have a resolution of micrometres; rounding of a position and of a distance can add up.
     check(worst_place < 2e-6, f"a tag is {worst_place} m off its trajectory")
     check(worst_distance < 2e-6, f"a true distance is off by {worst_distance} m")
     residuals = phase_residuals(reads, distances, 0.1)
@@ -500,7 +500,7 @@ def spawn(context):
     check_clear_path(folder)
 
 
-# --- Same bytes, and the stages apart -------------------------------------------------------------
+# --- Reproducibility, and the stages separately ---------------------------------------------------
 
 @case
 def same_bytes_for_one_and_two_threads(context):
@@ -558,7 +558,8 @@ def localize(context, folder, out):
 
 
 def check_same_estimates(one, other):
-    """Within 0.1 mm: reads.csv holds microradians and antenna_poses.csv micrometres."""
+    """Checks that estimates agree within 0.1 mm, as reads.csv is rounded to microradians and
+    antenna_poses.csv to micrometres."""
     one, other = ({(row["tag"], row["candidate"]): row for row in read_csv(folder /
                                                                             "estimates.csv")}
                   for folder in (one, other))
@@ -589,7 +590,7 @@ def localize_gives_what_the_run_gave(context):
 
 
 def horizontal_rms(poses, others):
-    """Between two files' poses of the same antennas at the same stamps [m]."""
+    """Horizontal RMS distance [m] between poses of the same antennas at the same stamps in two files."""
     squares = []
     for row, other in zip(read_csv(poses), read_csv(others), strict=True):
         check_equal((other["antenna"], other["stamp_s"]), (row["antenna"], row["stamp_s"]), "pose")
@@ -614,7 +615,7 @@ def compared_pose_is_what_the_other_poses_give(context):
         check_equal(compared["pose"], other, f"{pose}: compared_pose.pose")
         check_equal(compared["located"], alone["located"], f"{pose}: compared_pose.located")
         check_equal(compared["error_m"], alone["error_m"], f"{pose}: compared_pose.error_m")
-        # Files hold micrometres.
+        # Files have a resolution of micrometres.
         check_near(compared["position_rms_m"],
                    horizontal_rms(out / "antenna_poses.csv", out / "compared_poses.csv"), 2e-6,
                    f"{pose}: compared_pose.position_rms_m")

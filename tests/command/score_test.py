@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Estimators that are no part of Tagfield: `tagfield score`, and commands as methods of a bench."""
+"""External estimators: `tagfield score`, and commands as methods of a bench."""
 
 import json
 import sys
@@ -8,7 +8,7 @@ import sys
 from common import case, check, check_equal, check_in, check_near, main, read_csv, read_json, run
 
 SCENARIO = "paper_warehouse"
-# As any language would: reads and poses in, a place a tag out: where the antenna was at the strongest read.
+# An external estimator: the position of each tag is that of the antenna at the strongest read.
 PROGRAM = """\
 import bisect, csv, pathlib, sys
 folder = pathlib.Path(sys.argv[-1])
@@ -58,7 +58,7 @@ def takes_the_least_that_a_table_can_say(context):
     table = context.write("e.csv", f"tag,x_m,y_m\ntag1,{x + 0.3},{y - 0.4}\ntag2,0,0\ntag2,1,1\ntagg3,0,0\n")
     result = context.run_well("score", table, "--run", folder, "--json")
     tags = {tag["id"]: tag for tag in json.loads(result.out)["tags"]}
-    check_near(tags["tag1"]["error_m"], 0.5, 1e-9, "error of tag1")  # 3-4-5, on its own level
+    check_near(tags["tag1"]["error_m"], 0.5, 1e-9, "error of tag1")  # a 3-4-5 triangle in the horizontal plane
     check_equal(tags["tag2"]["verdict"], "ambiguous", "two rows")
     check_equal(tags["tag3"]["verdict"], "not_located", "no row")
     check_in("errors are horizontal", result.err, "warnings")
@@ -93,7 +93,7 @@ def a_command_is_a_method(context):
     rows = {row["name"]: row for row in read_csv(out / "bench.csv")}
     check_equal(set(rows), {"hyperbola", "strongest"}, "methods")
     check_equal(rows["strongest"]["tags"], "20", "tags")
-    # The same program after a run, judged by score, is off by as much.
+    # The same program after a run, evaluated by score, has the same errors.
     folder = context.simulate(SCENARIO, "--record-only", "--seed", "1")
     check_equal(run([*mine.split(), folder]).code, 0, "the program by itself")
     told = json.loads(context.run_well("score", folder / "estimates.csv", "--run", folder, "--json").out)
@@ -113,7 +113,7 @@ def suites_start_no_programs(context):
         check_in("suite.yaml:2: method 'mine' is a command", result.err, "refusal")
         check_in("--allow-commands", result.err, "refusal")
         check(not mark.exists(), "the command was run")
-    # Not asked for, it does not matter.
+    # Without that method, it does not matter.
     context.run_well("bench", path, "--methods", "hyperbola", "--no-page", "--out", context.folder / "out")
     context.run("bench", path, "--allow-commands")
     check(mark.exists(), "the command was not run with --allow-commands")

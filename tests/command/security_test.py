@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What a scenario or a world of somebody else's can't do (docs/security.md).
+"""Limits on untrusted scenarios and worlds (docs/security.md).
 
     security_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
 """
@@ -62,7 +62,7 @@ def what_contains_itself_ends(context):
 
 @case
 def nothing_is_fetched(context):
-    """Neither models nor meshes, of which both are given by their addresses."""
+    """Neither models nor meshes are downloaded, even if they are given by URL."""
     asked = []
 
     class Handler(http.server.BaseHTTPRequestHandler):
@@ -107,7 +107,7 @@ def names_are_text_wherever_they_are_shown(context):
 
 @case
 def a_scenarios_name_leads_nowhere_else(context):
-    """Without --out results are in runs/NAME, whatever the name is."""
+    """Without --out, results are written below runs/, whatever the scenario's name is."""
     world(context)
     for name in ("../../evil", "/tmp/evil", "..", "a/b"):
         scenario = context.write("scenario.yaml", SCENARIO.format(name="s").replace("name: s\n", f"name: \"{name}\"\n", 1))
@@ -120,9 +120,9 @@ def a_scenarios_name_leads_nowhere_else(context):
 
 @case
 def no_process_is_started(context):
-    """By the program's own imports. What can start another program is a bench's method that is a command, which must
-    be allowed (bench_test.py), and `doctor`, which asks by commands of its own source. fork() makes the copy of this
-    program in which meshes are read (sdf/internal/worker_process.h)."""
+    """Checks the program's imported symbols. Other programs are started only by bench methods that are
+    commands, which must be allowed (bench_test.py), and by `doctor`, whose commands are fixed in its
+    source. fork() creates the process in which meshes are read (sdf/internal/worker_process.h)."""
     if shutil.which("nm") is None:
         raise Skip("nm is missing (binutils)")
     if "TAGFIELD_SANITIZED" in os.environ:

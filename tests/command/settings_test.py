@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""No setting is without effect in silence: each key of the physical models (docs/radio_settings.md) is
-given beside several others, and then either what is read changes, or the command refuses it or warns."""
+"""No setting is ignored silently: each key of the physical models (docs/radio_settings.md) is combined
+with several others, and either the reads change, or the command rejects it or warns."""
 
 import hashlib
 import itertools
@@ -9,7 +9,7 @@ import re
 
 from common import case, check, check_equal, files_in, main
 
-# Two antennas on one reader, a third on another, tags turned this way and that, near walls and racks.
+# Two antennas on one reader, a third on another, tags in various orientations, near walls and racks.
 HALL = """\
 name: hall
 duration_s: 4
@@ -33,10 +33,10 @@ tags:
 TABLE = "[0,6,6,30,5,4,60,1,0,90,-6,-8,180,-12,-12]"
 OTHER_TABLE = "[0,7,7,30,5,4,60,0,-1,90,-7,-9,180,-14,-14]"
 
-# As fine as arithmetic: small effects show, too.
+# Without quantization, so that small effects show, too.
 FINE = ("antennas.*.rssi_step_db=0", "antennas.*.phase_steps=0")
 
-# Others that a key is given beside; each on its own has its effect on some keys.
+# Combinations with other settings; each is needed for the effect of some keys.
 BESIDE = {
     "link budget": ("model=link_budget",),
     "multipath": ("model=multipath", "antennas.*.reflection_order=1"),
@@ -53,7 +53,7 @@ BESIDE = {
     "linear": ("model=link_budget", "antennas.*.polarization=linear"),
 }
 
-# A value that is not the default; of those that others must go with, all of them.
+# A non-default value for each key; keys that need others include them.
 OF_ANTENNA = {
     "transmit_power_dbm": "24", "cable_loss_db": "2", "receive_pose": "[0,0.3,0,0,0,0]",
     "reflection_order": "2", "diffraction": "on", "tag_coupling": "on", "interference": "on",
@@ -75,7 +75,7 @@ OF_TAG = {
     "sensitivity_dbm": "-5", "modulation_db": "-12", "detuning_db": "6",
 }
 
-# What is asked for is so already.
+# Settings that equal those of the combination, and so change nothing.
 AS_BEFORE = {
     ("dipoles", "pattern", "dipole"), ("inventory", "inventory", "gen2"), ("fixed Q", "inventory", "gen2"),
     ("fixed Q", "adaptive_q", "false"), ("isotropic", "pattern", "isotropic"),
@@ -83,7 +83,7 @@ AS_BEFORE = {
 
 
 def keys_of(context, heading):
-    """Keys in the docs' table below that heading."""
+    """Keys in the table below this heading of the documentation."""
     page = (context.source / "docs" / "radio_settings.md").read_text()
     table = page[page.index(heading):].split("\n\n")[1]
     return re.findall(r"^\| `(\w+)` \|", table, re.M)
@@ -103,7 +103,7 @@ def no_setting_is_without_effect_in_silence(context):
     number = itertools.count()
 
     def outcome(settings):
-        """What was read, as a digest, and all that was said; no digest where it was refused."""
+        """A digest of the reads, and all messages; no digest if the setting was rejected."""
         out = context.folder / str(next(number))
         sets = [word for setting in settings for word in ("--set", setting)]
         run = context.run("run", hall, "--record-only", "--out", out, *sets)
@@ -131,9 +131,9 @@ def no_setting_is_without_effect_in_silence(context):
                 elif read is not None and not set(told.splitlines()) - set(said.splitlines()):
                     silent.append(f"{name}: {of}.{key}={value}")
     check_equal(silent, [], "settings that changed nothing, without a word")
-    # A key that is always refused or warned of would be no setting.
+    # A key that is always rejected or warned about would be useless.
     never = {(of, key) for of, values in (("antennas.left", OF_ANTENNA), ("tags.*", OF_TAG)) for key in values}
-    # (Of tags none has a pattern by a table here.)
+    # (No tag has a pattern table here.)
     check_equal(never - effective, {("tags.*", "pattern_table")}, "settings that never had an effect")
 
 

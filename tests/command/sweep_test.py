@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""`tagfield sweep`: points out of a suite, shards that can be killed, the same bytes from all of them;
-and --resume of what else takes long."""
+"""`tagfield sweep`: points of a suite, shards that can be killed, identical bytes for any shards; and
+--resume of other long commands."""
 
 import itertools
 import json
@@ -54,7 +54,7 @@ def check_same(results, expected, what):
 
 
 def shards(context, suite, count, name, *, order=None):
-    """All shards into a folder, in an order, merged."""
+    """Runs all shards in the given order and merges them; returns the folder."""
     folder = context.folder / name
     for shard in order or range(1, count + 1):
         context.run_well("sweep", suite, "--shard", f"{shard}/{count}", "--out", folder)
@@ -63,7 +63,7 @@ def shards(context, suite, count, name, *, order=None):
 
 
 def runs_in_logs(folder):
-    """How often each run stands in the logs."""
+    """How often each run occurs in the logs."""
     counts = {}
     for log in sorted((folder / "shards").rglob("*.log")):
         for line in log.read_text(encoding="utf-8").splitlines()[1:]:
@@ -73,13 +73,13 @@ def runs_in_logs(folder):
 
 
 def line_of(result, what):
-    """The only line of a complaint."""
+    """The only line of an error message."""
     lines = result.err.splitlines()
     check_equal((result.code, len(lines)), (2, 1), f"exit code and lines of {what}: {result.err!r}")
     return lines[0] if lines else ""
 
 
-# --- What comes out -------------------------------------------------------------------------------
+# --- Results --------------------------------------------------------------------------------------
 
 @case
 def the_same_bytes_whatever_the_shards(context):
@@ -91,7 +91,7 @@ def the_same_bytes_whatever_the_shards(context):
     check_same(results_of(shards(context, suite, 7, "seven", order=(4, 7, 1, 2, 6, 5, 3))), expected,
                "7 shards")
     check_equal(set(runs_in_logs(context.folder / "seven").values()), {1}, "times that each run was done")
-    # Shards of another number go on where those were.
+    # A different number of shards continues from their results.
     mixed = context.folder / "mixed"
     context.run_well("sweep", suite, "--shard", "2/3", "--out", mixed)
     context.run_well("sweep", suite, "--out", mixed)
@@ -134,7 +134,7 @@ def a_grid_is_every_combination(context):
                  for row in rows],
                 list(itertools.product(("0.001", "0.01", "0.1"), ("0.1", "0.5"),
                                        ("hyperbola", "fine"))), "rows")
-    # A point is a run with these settings.
+    # A point equals a run with these settings.
     context.run_well("run", "small.yaml", "--seeds", "3", "--no-page", "--out", "run", "--set",
                      "pose.sigma_m=0.1", "--set", "antennas.mobile.phase_noise_rad=0.5", "--set",
                      "localization.method=hyperbola")
@@ -171,10 +171,10 @@ def halving_gives_more_seeds_to_the_better(context):
     context.run_well("sweep", suite, "--out", "one")
     expected = results_of(context.folder / "one")
     rows = read_csv(context.folder / "one/points.csv")
-    # Rungs of 2, 4 and 8 seeds with 5, 3 and 2 points: the two least errors of poses go furthest.
+    # Rungs of 2, 4 and 8 seeds with 5, 3 and 2 points: the two smallest pose errors reach the last.
     check_equal(sorted(int(row["runs"]) for row in rows), [2, 2, 4, 8, 8], "runs")
     check_equal({row["pose.sigma_m"] for row in rows if row["runs"] == "8"}, {"0.001", "0.003"}, "winners")
-    # By shards, a rung at a time.
+    # With shards, one rung at a time.
     folder = context.folder / "three"
     for code in (3, 3, 0):
         for shard in (2, 3, 1):
@@ -214,7 +214,7 @@ def the_page_shows_it(context):
 # --- Killed, resumed ------------------------------------------------------------------------------
 
 def killed(context, arguments, after_s):
-    """Runs the program and kills it; whether it was still there to be killed."""
+    """Runs the program and kills it after a time; returns whether it was still running."""
     process = subprocess.Popen([str(word) for word in (context.tagfield, *arguments)],
                                cwd=context.folder, stdin=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
@@ -276,13 +276,13 @@ def bench_and_runs_go_on(context):
 
 @case
 def resume_takes_what_was_kept(context):
-    """A result in the log is not computed again, and one of another suite is refused."""
+    """A result in the log is not computed again, and a log of another suite is rejected."""
     suite = suite_of(context, "conditions: [{name: a}]\n", seeds=3, methods="[hyperbola]")
     context.run_well("sweep", suite, "--out", "swept", "--no-page")
     log = (context.folder / "swept/shards/of_1/1.log").read_text(encoding="utf-8").splitlines()
     result = context.run("bench", suite, "--out", "bench", "--resume")
     check_equal(result.code, 0, "--resume of nothing")
-    # As a bench would keep it, with an error that no run can have had.
+    # As a bench would store it, with a verdict that the run did not have.
     forged = log[1].replace('"located"', '"ambiguous"')
     check(forged != log[1], "nothing located")
     context.write("bench/resume.log", "\n".join((log[0], forged)) + "\n")
@@ -320,7 +320,7 @@ def other_suites_are_refused(context):
         complaint = line_of(context.run("sweep", *arguments), "another version")
         check_in("holds a sweep by tagfield 0.0.9, and this is ", complaint, "another version")
     context.write("out/sweep.json", json.dumps(source))
-    # A shard that was brought here from another sweep.
+    # A shard's log copied from another sweep.
     context.write("out/shards/of_3/2.log", before.replace(source["work"].encode(), b"0" * 16, 1))
     complaint = line_of(context.run("sweep", "--merge", folder), "another's shard")
     check(complaint.startswith(f"tagfield: {folder}/shards/of_3/2.log:1: has results of another suite"),
@@ -386,8 +386,8 @@ def failures_are_listed_with_what_runs_them_again(context):
     whole = results_of(shards(context, suite, 1, "whole"))
     work = context.folder / "whole/sweep.json"
     check(work.exists(), "no sweep.json")
-    # The file is there when the sweep is looked at, and gone when the run wants it: as good as a fault
-    # of a machine. Points are made ready when their turn comes.
+    # The file is valid when the sweep is checked, and broken when the run loads it, like a fault of a
+    # machine. Points are prepared just before they run.
     text = away.read_text(encoding="utf-8")
     away.write_text(text.replace("</sdf>", ""), encoding="utf-8")
     result = context.run("sweep", suite, "--out", "out")
@@ -419,7 +419,7 @@ def a_full_disk_loses_nothing(context):
         check_equal(set(runs_in_logs(folder).values()), {1}, "times that each run was done")
 
 
-BAD = (  # what stands in the suite, its line, what is said of it
+BAD = (  # the suite's content, the line of the error, its message
     ("sweep: {grid: {pose.sigma_m: 1}}\n", 4, "must be a list of values, or a mapping {from, to, steps}"),
     ("sweep: {grid: {pose.sigm_m: [1]}}\n", 1, "did you mean 'sigma_m'?"),
     ("sweep: {grid: {pose.sigma_m: {from: 2, to: 1, steps: 3}}}\n", 4, "must be greater than 'from'"),
@@ -467,7 +467,7 @@ def mpi_program(context):
 
 
 def mpirun(context, ranks, *arguments):
-    # What Open MPI keeps to its end is no leak of Tagfield's.
+    # Open MPI's own allocations at exit are not leaks of Tagfield.
     ours = ["env", "ASAN_OPTIONS=detect_leaks=0:exitcode=99"] if "TAGFIELD_SANITIZED" in os.environ else []
     return run([*ours, "mpirun", "--allow-run-as-root", "--oversubscribe", "-np", ranks, mpi_program(context),
                 *arguments], cwd=context.folder)
@@ -484,7 +484,7 @@ def mpi_ranks_make_the_same_bytes(context):
     check_same(results_of(folder), expected, "4 ranks")
     counts = runs_in_logs(folder)
     check_equal((len(counts), set(counts.values())), (18, {1}), "runs, and times that each was done")
-    # A folder that a shard began.
+    # A folder that a shard has started.
     context.run_well("sweep", suite, "--shard", "1/2", "--out", "begun")
     check_equal(mpirun(context, 2, suite, "--out", "begun").code, 0, "exit code of mpirun")
     check_same(results_of(context.folder / "begun"), expected, "a shard and 2 ranks")
@@ -501,7 +501,7 @@ def scripts_submit_what_they_say(context):
         done = run([*environment, scripts / "gnu_parallel.sh", suite, "parallel", "3"], cwd=context.folder)
         check_equal(done.code, 0, f"exit code of gnu_parallel.sh: {done.err!r}")
         check_same(results_of(context.folder / "parallel"), expected, "gnu_parallel.sh")
-    # An sbatch that runs what it is given, task after task, stands for Slurm: its options are checked.
+    # A fake sbatch that checks its options and runs the tasks one after another replaces Slurm.
     context.write("bin/sbatch", """#!/bin/bash
 set -e
 for word; do

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""`tagfield track` as a user meets it: a scenario, reads of a run, bad input."""
+"""`tagfield track` end to end: a scenario, reads of a run, invalid input."""
 
 import math
 
@@ -33,7 +33,7 @@ def a_scenario_is_tracked_and_judged(context):
 @case
 def tracks_lie_where_the_scenario_moves_its_tags(context):
     folder = track(context, context.shipped("conveyor"))
-    # Of the file, not of the program: parcel_05 starts at x = -4.8, y = -0.05, at 1 m/s.
+    # From the scenario file: parcel_05 starts at x = -4.8, y = -0.05, at 1 m/s.
     rows = [row for row in read_csv(folder / "tracks.csv") if row["tag"] == "parcel_05"]
     check(len(rows) > 80, f"{len(rows)} rows")
     for row in rows:
@@ -56,7 +56,7 @@ def reads_of_a_run_give_the_same_tracks(context):
     first = track(context, scenario, name="first")
     again = track(context, first / "reads.csv", "--poses", first / "antenna_poses.csv",
                   "--scenario", scenario, name="again")
-    # Phases in a file have six decimals.
+    # Phases in files are rounded to six decimals.
     for a, b in zip(read_csv(first / "order.csv"), read_csv(again / "order.csv")):
         check_equal((a["passed"], a["tag"]), (b["passed"], b["tag"]), "order")
         check_near(float(a["stamp_s"]), float(b["stamp_s"]), 1e-5, f"stamp of {a['tag']}")
@@ -70,13 +70,13 @@ def reads_of_a_run_give_the_same_tracks(context):
 
 @case
 def reads_that_do_not_fit_in_memory(context):
-    """In parts on the disk: the same tracks, and nothing left behind."""
+    """In parts on disk: identical tracks, and no leftovers."""
     scenario = context.shipped("conveyor")
     run = track(context, scenario, name="run")
     given = (run / "reads.csv", "--poses", run / "antenna_poses.csv", "--scenario", scenario)
     whole = track(context, *given, name="whole")
     parts = track(context, *given, "--part-reads", 2000, name="parts")
-    for name in ("tracks.csv", "verdicts.csv"):  # Tags of the conveyor are named as they come.
+    for name in ("tracks.csv", "verdicts.csv"):  # The conveyor's tags are named in the order in which they come.
         check_equal((parts / name).read_bytes(), (whole / name).read_bytes(), name)
     check_equal((parts / "order.csv").read_bytes(), (whole / "order.csv").read_bytes(), "order.csv")
     of_whole, of_parts = read_json(whole / "tracks.json"), read_json(parts / "tracks.json")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Bad parameters in SDF: one clear error, that sensor off, everything else on."""
+"""Invalid parameters in SDF: one clear error, that sensor is disabled, everything else works."""
 
 import re
 
@@ -8,7 +8,7 @@ from gazebo import (
     Run, antenna, antenna_sensor, case, check, check_between, check_equal, check_in, main, messages, model,
     schedule, tag, tag_sensor, world)
 
-# What stands in the antenna's plugin, and what must be said of it.
+# Content of the antenna's plugin, and the expected error.
 BAD_ANTENNAS = {
     "text": ("<frequency>fast</frequency>", "<frequency> is 'fast', expected a number"),
     "nan": ("<noisephi>nan</noisephi>", "<noisephi> is 'nan', expected a number"),
@@ -39,7 +39,7 @@ BAD_ANTENNAS = {
                "<parent_frame> is 'nowhere', expected a link of model 'bad_parent'"),
     "name": ("<antenna>gate</antenna>", "there is an antenna called 'gate' already"),
 }
-# Whole sensors, and what must be said of them.
+# Complete sensors, and the expected error.
 BAD_SENSORS = {
     "wrong_kind": (antenna_sensor("s").replace('type="rfid"', 'type="rfidtag"'),
                    "sensor type is 'rfidtag', expected 'rfid' for an antenna"),
@@ -69,7 +69,7 @@ def check_all_in(parts, text):
 
 
 def errors(text):
-    """Gazebo's errors, without colours."""
+    """Gazebo's error lines, without colour codes."""
     plain = re.sub(r"\x1b\[[0-9;]*m", "", text)
     return [line for line in plain.split("\n") if "[Err]" in line]
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The warehouse experiment in the real Gazebo, from the robot's first metre to the tags' places, and
-the same reads headless."""
+"""The warehouse experiment in the real Gazebo, from driving to the tags' estimated positions, and the
+same reads headless."""
 
 import subprocess
 
@@ -9,7 +9,7 @@ from gazebo import (
     TOP, case, check, check_between, check_equal, main, read_csv, read_json, require_gazebo)
 
 SCENARIO = TOP / "scenarios/paper_warehouse.yaml"
-# A lift, an antenna at rest, tags on the robot: what the paper's scenario has not.
+# What the paper's scenario lacks: a lift, a fixed antenna, tags on the robot.
 MOVING = """\
 name: moving
 robots:
@@ -25,7 +25,7 @@ tags:
 
 
 def experiment(context, scenario, out, *options):
-    """Runs a scenario in Gazebo; gives the folder with the bag and its results."""
+    """Runs a scenario in Gazebo; returns the folder with the bag and its results."""
     require_gazebo(context)
     done = subprocess.run(
         [str(TOP / "scripts/gazebo-experiment"), str(scenario), "--out", str(out),
@@ -36,7 +36,7 @@ def experiment(context, scenario, out, *options):
 
 
 def check_replays(context, scenario, run, *settings):
-    """The poses that Gazebo made, replayed headless, give the same reads byte for byte."""
+    """Checks that replaying Gazebo's poses headless gives the same reads byte for byte."""
     replayed = context.folder / f"replay_of_{run.name}"
     antennas = {row["antenna"] for row in read_csv(run / "truth/antenna_poses.csv")}
     recorded = [f"antennas.{name}.recorded={run}/truth/antenna_poses.csv"
@@ -44,7 +44,7 @@ def check_replays(context, scenario, run, *settings):
     words = [word for setting in (*recorded, f"tag_recording={run}/truth/tags.csv", *settings)
              for word in ("--set", setting)]
     context.run_well("run", scenario, "--out", replayed, "--no-page", *words)
-    # Antennas that update at one stamp have no order among them.
+    # The order of antennas that update at the same stamp is undefined.
     expected = sorted((run / "reads.csv").read_bytes().splitlines())
     actual = sorted((replayed / "reads.csv").read_bytes().splitlines())
     check(len(expected) > 100, "there are no reads to compare")

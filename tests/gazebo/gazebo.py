@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests in the real Gazebo share: worlds, gzserver, roscore, rosbag, and what came of it.
+"""Common parts of the tests in the real Gazebo: worlds, gzserver, roscore, rosbag and their results.
 
-Built on the harness of tests/command and the processes of scripts/gazebo-experiment.
+Based on the harness of tests/command and the processes of scripts/gazebo-experiment.
 """
 
 import contextlib
@@ -33,7 +33,7 @@ RECORDED = (*EACH_UPDATE, "/rfid/truth/tags", "/rfid/truth/tags_moved")
 
 
 def require_gazebo(context):
-    """Skips the case where Gazebo 11, the plugins or ROS are missing."""
+    """Skips the case if Gazebo 11, the plugins or ROS are missing."""
     done = subprocess.run([str(IN_GAZEBO), "true"], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True, check=False)
     if done.returncode != 0:
@@ -48,7 +48,7 @@ def require_gazebo(context):
 # --- Worlds ---------------------------------------------------------------------------------------
 
 def world(*parts, factor=1.0, step_s=0.001):
-    """A world of such steps that runs at a multiple of real time; 0 for as fast as it can."""
+    """A world with this step size that runs at a multiple of real time; 0 for the maximum speed."""
     return (f'<?xml version="1.0"?><sdf version="1.6"><world name="default">'
             f'<physics type="ode"><max_step_size>{step_s}</max_step_size>'
             f'<real_time_update_rate>{factor / step_s}</real_time_update_rate></physics>'
@@ -56,7 +56,7 @@ def world(*parts, factor=1.0, step_s=0.001):
 
 
 def model(name, pose, sensors, static=True):
-    """A model of one link with sensors; a tag that stands by itself is one."""
+    """A model of one link with sensors, such as a single tag."""
     return (f'<model name="{name}"><static>{int(static)}</static><pose>{pose}</pose>'
             f'<link name="link">{sensors}</link></model>')
 
@@ -82,7 +82,7 @@ def antenna(name, x, y, z, parameters="<range>1000</range>", static=True):
 
 
 def schedule(log, events="", stop=None):
-    """The test's own plugin: events at simulated times, and a log of the models there are."""
+    """The test's plugin: events at simulated times, and a log of models that come and go."""
     last = f'<stop time="{stop}"/>' if stop else ""
     return (f'<plugin name="schedule" filename="libtagfield_test_schedule.so"><log>{log}</log>'
             f'{events}{last}</plugin>')
@@ -93,7 +93,7 @@ def escaped(text):
 
 
 def insert(time_s, text):
-    """An event of the schedule: a model comes."""
+    """An event of the schedule: a model is inserted."""
     return f'<insert time="{time_s}">{escaped(f"<sdf version={chr(39)}1.6{chr(39)}>{text}</sdf>")}</insert>'
 
 
@@ -104,24 +104,24 @@ def remove(time_s, name):
 # --- Runs -----------------------------------------------------------------------------------------
 
 class Recorder(experiment.Recorder):
-    """A recorder that loses nothing, and what it has by now."""
+    """A recorder that loses no message and reports those received so far."""
 
     def command(self):
         return [TOP / "tests/gazebo/recorder.py", self.bag, *self.topics]
 
     def stamps(self):
-        """(topic, stamp [ns]) of each message so far."""
+        """(topic, stamp [ns]) of each message received so far."""
         lines = self.process.log.read_text(encoding="utf-8", errors="replace").split("\n")[:-1]
         pairs = [line.split() for line in lines if line.startswith("/")]
         return [(topic, int(stamp)) for topic, stamp in pairs]
 
     def has_reached(self, stamp):
-        """Whether the topics of each update have come to a stamp [ns]."""
+        """Whether the topics of each update have reached a stamp [ns]."""
         reached = {topic for topic, at in self.stamps() if at >= stamp}
         return reached.issuperset(EACH_UPDATE)
 
     def settle(self):
-        """Waits until nothing has come in for a while."""
+        """Waits until no message has arrived for a while."""
         count = -1
         while count != len(self.stamps()):
             count = len(self.stamps())
@@ -129,7 +129,7 @@ class Recorder(experiment.Recorder):
 
 
 class Run:
-    """A gzserver with a world, and a ROS master, unless there is to be none."""
+    """A gzserver with a world, and by default a ROS master."""
 
     def __init__(self, context, text, *, name="world", record=False, master=True, env=None,
                  command=("gzserver",)):
@@ -160,7 +160,7 @@ class Run:
         try:
             if self.with_master:
                 self.start_master()
-            # Before Gazebo, or the recorder would wait for simulated time to begin.
+            # Before Gazebo; otherwise the recorder would wait for simulated time to begin.
             if self.with_record:
                 self.recorder = Recorder(self.bag, RECORDED, RECORDED, self.folder, self.env)
                 self.stack.callback(self.recorder.process.stop)
@@ -192,7 +192,7 @@ class Run:
                             [self.core])
 
     def start(self, name, *command):
-        """Another program beside, such as a subscriber; ends with the run."""
+        """Starts another program, such as a subscriber; it ends with the run."""
         process = experiment.Process(name, command, self.folder / f"{name}.log", self.env)
         self.stack.callback(process.stop)
         return process
@@ -204,7 +204,7 @@ class Run:
         experiment.wait_for(what, ready, [self.server], seconds)
 
     def published(self):
-        """Topics that the master knows publishers of."""
+        """Topics with publishers, according to the master."""
         proxy = experiment.xmlrpc.client.ServerProxy(self.env["ROS_MASTER_URI"])
         return {name for name, _ in proxy.getSystemState("/test")[2][0]}
 
@@ -230,14 +230,14 @@ def read_if_there(path):
 
 
 def messages(bag, topic):
-    """The bag's messages of a topic, in order of their stamps."""
+    """The messages of a topic in the bag, in order of their stamps."""
     import rosbag  # pylint: disable=import-outside-toplevel
     found = [message for _, message, _ in rosbag.Bag(str(bag)).read_messages(topics=[topic])]
     return sorted(found, key=lambda message: message.header.stamp)
 
 
 def recorded_in(bag):
-    """Wall time from the first message's coming to the last's [s]."""
+    """Wall time [s] from the receipt of the first message to that of the last."""
     import rosbag  # pylint: disable=import-outside-toplevel
     with rosbag.Bag(str(bag)) as opened:
         return opened.get_end_time() - opened.get_start_time()
@@ -248,6 +248,6 @@ def nanoseconds(stamp):
 
 
 def lines_of_json(path):
-    """The whole lines of a file that another program still writes."""
+    """The complete lines of a file that another program is still writing."""
     text = pathlib.Path(path).read_text(encoding="utf-8", errors="replace")
     return [json.loads(line) for line in text.split("\n")[:-1] if line.startswith("{")]

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A hall of metal, brick and meshes that both Gazebos and the headless simulator read the same in."""
+"""A hall of metal, brick and meshes in which both Gazebos and the headless simulator give equal reads."""
 
 import itertools
 
 from common import read_csv
 
 SECONDS = 5.0
-# Of reads.csv; Doppler is not in the messages.
+# Columns of reads.csv; Doppler is not in the messages.
 COMPARED = ("stamp_s", "reader", "antenna", "tag", "frequency_hz", "phase_rad", "rssi_dbm")
 
 
 def solid(name, pose, *shapes):
-    """A static model, a collision a shape."""
+    """A static model with one collision per shape."""
     collisions = "".join(f'<collision name="part_{i}"><pose>{at}</pose><geometry>{shape}</geometry>'
                          f'</collision>' for i, (at, shape) in enumerate(shapes))
     return (f'<model name="{name}"><static>1</static><pose>{pose}</pose><link name="link">'
@@ -25,7 +25,7 @@ def box(x, y, z):
 
 
 def hall(folder, scale):
-    """The hall's file: floor, walls, a metal rack, a pillar, a tank, and a crate from a mesh's file."""
+    """The hall's file: floor, walls, a metal rack, a pillar, a tank, and a crate from a mesh file."""
     mesh = folder / "crate.stl"
     mesh.write_text(stl_box(0.5, 1.0, 0.75), encoding="utf-8")
     rack = [("0 0 {} 0 0 0".format(height), box(0.8, 4.0, 0.05)) for height in (0.5, 1.5, 2.5)]
@@ -49,7 +49,7 @@ def hall(folder, scale):
 
 
 def stl_box(x, y, z):
-    """A box around the origin as an STL file's text."""
+    """A box around the origin in the text form of STL."""
     corners = [tuple(sign * size / 2 for sign, size in zip(signs, (x, y, z)))
                for signs in itertools.product((-1, 1), repeat=3)]
     faces = ((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6),
@@ -63,8 +63,8 @@ def stl_box(x, y, z):
 
 
 def scenario(context, model, settings, *, scale="1.5 1 -2", cart="transmit_power_dbm: 27, "):
-    """Tags at rest on all sides of the rack, one that moves; a gate at rest and a cart that moves.
-    The crate's scale mirrors it."""
+    """Static tags on all sides of the rack and a moving one; a static gate and a moving cart. The scale
+    mirrors the crate."""
     tags = [f"  - {{id: tag_{i}, position: [{x}, {y}, {z}]}}" for i, (x, y, z) in enumerate(
         itertools.product((-2.5, 1.2, 3.4), (-1.5, 0.5, 3.0), (0.7, 1.9)))]
     tilted = "" if model == "paper" else ", sensitivity_dbm: -20"
@@ -90,7 +90,7 @@ tags:
 
 
 def headless(context, path, run):
-    """The poses that Gazebo produced, replayed."""
+    """Runs the scenario headless with the poses from Gazebo."""
     again = context.folder / f"{path.stem}_again"
     recorded = [word for antenna in ("gate", "cart") for word in
                 ("--set", f"antennas.{antenna}.recorded={run}/truth/antenna_poses.csv")]
@@ -101,5 +101,5 @@ def headless(context, path, run):
 
 
 def reads_in(folder):
-    """Sorted, as antennas that update at one stamp have no order among them."""
+    """The reads, sorted, as the order of antennas that update at the same stamp is undefined."""
     return sorted(tuple(row[name] for name in COMPARED) for row in read_csv(folder / "reads.csv"))

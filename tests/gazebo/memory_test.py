@@ -16,7 +16,7 @@ from gazebo import (
 
 
 def sanitizer(context):
-    """The sanitizer's library."""
+    """Path of the sanitizer's library."""
     require_gazebo(context)
     library = subprocess.run([str(IN_GAZEBO), "g++", "-print-file-name=libasan.so"], check=True,
                              stdout=subprocess.PIPE, text=True).stdout.strip()
@@ -24,7 +24,7 @@ def sanitizer(context):
 
 
 def ours(report):
-    """The parts of a leak report that have our code in their stack."""
+    """The parts of a leak report with Tagfield's code in their stack traces."""
     return [part for part in report.split("\n\n")
             if re.search(r"leak of .* byte", part)
             and re.search(r"tagfield|libgazeboRfid|libTagfield", part)]

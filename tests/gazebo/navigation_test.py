@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A robot that maps a part of the hall in the real Gazebo by nodes, then finds itself on its map,
-drives to goals, and reads tags, which are located from the bag by tf."""
+"""A robot in the real Gazebo with ROS nodes: it maps a part of the hall, localizes itself on the map,
+drives to goals and reads tags, which are located from the bag with poses by tf."""
 
 import subprocess
 
@@ -47,7 +47,7 @@ def the_robot_reaches_its_goals_on_its_own_map_and_tags_are_located_by_tf(contex
     check(summary["error_m"]["max"] < 0.3, f"tags: {summary['error_m']}")
     beside = summary["compared_pose"]
     check_equal(beside["pose"], "true", "pose compared with")
-    # Not "less than by tf": of two tags the poses' errors may cancel, and once did.
+    # Not "less than by tf": with only two tags, pose errors may cancel, and once did.
     check_equal(beside["located"], 2, "tags located with the true pose")
     check(beside["error_m"]["max"] < 0.05, f"with the true pose: {beside}")
     check(0 < beside["position_rms_m"] < 0.05, f"how far the poses are apart: {beside}")

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Physical models in Gazebo read what the headless simulator reads, with Gazebo's own geometry."""
+"""Physical models in Gazebo, with Gazebo's geometry, give the same reads as the headless simulator."""
 
 from gazebo import (
     Run, case, check, check_equal, check_in, check_near, insert, main, remove, schedule)
 from hall import SECONDS, box, headless, reads_in, scenario, solid
 
 def in_gazebo(context, path, events="", pace=0):
-    """Runs the scenario in Gazebo, with the cart and one tag on their way; gives the located run's
-    folder, what Gazebo said, and the schedule's log."""
+    """Runs the scenario in Gazebo with a moving cart and a moving tag; returns the folder of the located
+    run, Gazebo's output, and the schedule's log."""
     world = context.folder / f"{path.stem}.world"
     context.run_well("gazebo", path, "--out", world, "--real-time", pace)
     folder = context.folder / path.stem
@@ -85,19 +85,19 @@ def without_noise_and_steps_the_waves_are_the_same(context):
 
 
 def seconds_of(events, log):
-    """When the schedule saw an event [s]."""
+    """Time [s] of an event in the schedule's log."""
     return [int(line.split()[0]) * 1e-9 for line in log.split("\n") if line.endswith(events)][0]
 
 
 @case
 def models_that_come_and_go_shade_the_tags(context):
-    """A metal screen around the gate for a second; what can move is no wall."""
+    """A metal screen at the gate for a second shades the tags; a movable model does not."""
     screen = solid("metal_screen", "-3.8 -1 2.2 0 0 0", ("0 0 0 0 0 0", box(0.02, 8, 8)))
     loose = solid("loose", "-3.7 -1 2.2 0 0 0", ("0 0 0 0 0 0", box(0.02, 3, 3)))
     loose = loose.replace("<static>1</static>", "")
     path = scenario(context, "link_budget", "channel_plan: etsi_low")
     events = insert(1, loose) + insert(2, screen) + remove(3, "metal_screen")
-    # Gazebo lets models come and go ten times a second of wall time.
+    # Gazebo inserts and deletes models ten times per second of wall time.
     run, said, log = in_gazebo(context, path, events, pace=1)
     stamps = [float(read[0]) for read in reads_in(run) if read[2] == "gate"]
     comes, goes = seconds_of("+ metal_screen", log), seconds_of("- metal_screen", log)

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A world in the published plugin's form, and a subscriber that knows nothing but its message."""
+"""A world in the form of the published plugin, and a subscriber that knows only its message type."""
 
 import math
 
 from gazebo import Run, case, check, check_equal, check_near, lines_of_json, main
 
-# Sensors, parameters and topic as the published plugin has them, in a world of this test's own.
+# Sensors, parameters and topic like those of the published plugin, in a world of this test.
 WORLD = """<?xml version="1.0"?>
 <sdf version="1.6">
   <world name="default">
@@ -74,7 +74,7 @@ WORLD = """<?xml version="1.0"?>
 </sdf>
 """
 TOPIC = "/gazebo/rfid_antenna/data"
-# A quarter turn carries the sensor's 0.25 m along x to y.
+# A rotation by 90° turns the sensor's offset of 0.25 m from x to y.
 ANTENNA = (3.5, -3.75, 2.0)
 TAGS = {"tag1::link": (2.90, -1.24, 2.05), "crate::front": (2.90, -3.03, 2.05),
         "crate::back::left": (2.60, -2.23, 2.05), "crate::back::right": (3.20, -2.23, 2.05)}
@@ -103,8 +103,8 @@ def a_world_in_the_published_form_is_read_by_its_subscribers(context):
         check_equal(errors, [], "Gazebo's errors")
     check_equal({message["frame"] for message in received}, {"world"}, "frames")
     stamps = [message["stamp"][0] + 1e-9 * message["stamp"][1] for message in received]
-    # Gazebo gives a new subscriber the last message from before it was heard; what was published while
-    # they connected nobody gets. From then on none is missing. Updates fall on steps of 1 ms.
+    # Gazebo sends a new subscriber the last message from before the connection; messages published while
+    # connecting are lost. Afterwards none is missing. Updates are on steps of 1 ms.
     missed = (stamps[1] - stamps[0]) * 15
     check_near(missed, max(1, round(missed)), 0.03, "updates from the last message before to the first after")
     for earlier, later in zip(stamps[1:], stamps[2:]):
@@ -123,7 +123,7 @@ def a_world_in_the_published_form_is_read_by_its_subscribers(context):
 
 
 def judge(name, reads, distance):
-    """Phase and RSSI against equations (4) and (5) with their noise; bounds of five sigma."""
+    """Compares phase and RSSI with equations (4) and (5) and their noise; bounds of five sigma."""
     count = len(reads)
     phase = 4.0 * math.pi * distance / WAVELENGTH
     for read in reads:
@@ -134,8 +134,8 @@ def judge(name, reads, distance):
                                   for read in reads])
     check_near(mean, 0.0, 5.0 * NOISE_PHI / math.sqrt(count), f"mean phase error of {name}")
     check_near(sigma, NOISE_PHI, 5.0 * NOISE_PHI / math.sqrt(2.0 * count), f"phase noise of {name}")
-    # The amplitude behind a rounded RSSI: half a decibel is 3 % of it. Its noise is folded where
-    # the sum is negative, which it is not for the three that are near.
+    # The amplitude of a rounded RSSI: half a decibel is 3 % of it. Its noise is folded where the sum is
+    # negative, which does not happen for the three near tags.
     amplitude = WAVELENGTH / (4.0 * math.pi * distance)
     if amplitude > 4.0 * NOISE_RSSI:
         return
@@ -146,7 +146,7 @@ def judge(name, reads, distance):
 
 @case
 def the_message_is_the_published_one(context):
-    """Its fields as the published example's parameters say, made into a sum by rosbag's library."""
+    """The MD5 sum, computed by rosbag's library, is that of a message with the published fields."""
     import genpy.dynamic  # pylint: disable=import-outside-toplevel
     text = ("Header header\ngeometry_msgs/Pose antennaPose\nuint32 ntags\nTag[] tags\n"
             + "=" * 80 + "\nMSG: rfid_sensor/Tag\nstring name\nfloat64 dist\nfloat64 phi\nfloat64 rssi\n"

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Records topics as a bag and loses no message, however fast they come and however busy the machine.
+"""Records topics into a bag without losing messages, even at high rates on a busy machine.
 
     recorder.py BAG TOPIC…
 
-rosbag record lets no more than 100 messages of a topic wait; here none is dropped: what is not read yet
-waits in memory, with this program or, in its queue of 10,000, with the publisher. Prints topic and stamp
-[ns] of each message as it comes in. Writes the bag when it is interrupted.
+rosbag record queues at most 100 messages per topic; here none is dropped: unread messages wait in the
+memory of this program or in the publisher's queue of 10,000. Prints topic and stamp [ns] of each message
+on receipt. Writes the bag on an interrupt.
 """
 
 import signal
@@ -22,7 +22,7 @@ import rospy
 
 
 def stamp_of(message):
-    """Of its header, which is first in it, behind the publisher's count [ns]."""
+    """Stamp [ns] of a message's header, which is its first field; the stamp follows the sequence number."""
     seconds, nanoseconds = struct.unpack_from("<II", message._buff, 4)  # pylint: disable=W0212
     return seconds * 1_000_000_000 + nanoseconds
 

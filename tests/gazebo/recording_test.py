@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A Gazebo world that records itself into an MCAP file, beside a rosbag of the same run."""
+"""A Gazebo world that records an MCAP file, compared with a rosbag of the same run."""
 
 import os
 import re
@@ -16,7 +16,7 @@ def recording(*elements):
 
 
 def located(context, recorded, out):
-    """Folder of what `tagfield localize` makes of a recording."""
+    """Folder with the results of `tagfield localize` from a recording."""
     told = context.run_well("localize", recorded, "--method", "hyperbola", "--out", out).err
     check("no transform joins" not in told, f"frames of {recorded}: {told}")
     return context.folder / out
@@ -92,7 +92,7 @@ def a_robots_ways_scans_and_frames_are_in_it(context):
     for topic, kind in OF_ROBOT.items():
         check_in((topic, kind), topics, "topics")
         check(counts.get(topic, 0) > 50, f"{counts.get(topic, 0)} messages of {topic}")
-    # By tf: from the map over the odometry and the robot to its antenna.
+    # By tf: from the map via odom and the robot to its antenna.
     context.run_well("localize", mcap, "--method", "hyperbola", "--poses", "tf", "--out", "by_tf")
     believed = read_csv(context.folder / "by_tf/antenna_poses.csv")
     truth = {row["stamp_s"]: row for row in read_csv(context.folder / "by_tf/truth/antenna_poses.csv")}
@@ -110,7 +110,7 @@ def without_ros_and_killed_it_is_there_too(context):
     text = world(recording(f"<mcap>{folder}/run.mcap</mcap>"), antenna("gate", 0, 0, 1),
                  *(tag(f"tag{i}", 2, 0.02 * i, 1) for i in range(100)), factor=0.0)
     with Run(context, text, master=False) as running:
-        # A chunk holds about a megabyte.
+        # A chunk has about a megabyte.
         running.wait_for("a chunk", lambda: any(path.stat().st_size > 200_000 for path in folder.iterdir()))
         os.killpg(running.server.process.pid, signal.SIGKILL)
     names = [path.name for path in folder.iterdir()]

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A ROS master that is missing, comes, dies and comes back: Gazebo goes on, publishing resumes."""
+"""A ROS master that is missing, starts, dies and restarts: Gazebo continues, publishing resumes."""
 
 import re
 
@@ -11,7 +11,7 @@ TOPIC = "/gazebo/gate/data"
 
 
 def messages_reach(running, context, name):
-    """Starts a new subscriber and waits for what it hears."""
+    """Starts a new subscriber, waits for its messages, and returns them."""
     listener = running.start(name, context.build / "bin/tag_array_subscriber", TOPIC)
     running.wait_for(f"messages for {name}", lambda: len(lines_of_json(listener.log)) > 20)
     return lines_of_json(listener.log)
@@ -22,7 +22,7 @@ def seconds(message):
 
 
 def simulated_s(running):
-    """Gazebo's own clock, without ROS."""
+    """Gazebo's simulation time [s], without ROS."""
     text = running.gz("topic", "-e", "/gazebo/default/world_stats", "-d", "1")
     found = re.findall(r"sim_time \{\s*sec: (\d+)", text)
     return int(found[-1]) if found else -1

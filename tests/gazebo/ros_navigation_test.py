@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The nodes against a roscore alone: what comes in that nobody can use, and time that goes back."""
+"""The ROS nodes with a roscore, without Gazebo: unusable messages, and time that jumps back."""
 
 import atexit
 import contextlib
@@ -25,7 +25,7 @@ ACTIVE = 1
 
 @functools.cache
 def master():
-    """The environment of the one roscore of all cases: rospy knows one only."""
+    """The environment of the roscore that all cases share, as rospy supports only one per process."""
     stack = contextlib.ExitStack()
     atexit.register(stack.close)
     folder = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="tagfield-")))
@@ -36,7 +36,7 @@ def master():
 
 
 class Robot:
-    """A robot that stands in a square room of 4 m, as the nodes hear of it."""
+    """Publishes what the nodes need of a robot that is at rest in a square room of 4 m."""
 
     def __init__(self, context, name):
         self.context = context
@@ -118,7 +118,7 @@ class Robot:
         return message
 
     def step(self, *extra, localized=True):
-        """A thirtieth of a second of simulated time, and three of the wall clock's."""
+        """Publishes a step of 1/30 s of simulated time, and waits 0.03 s of wall time."""
         self.now_s += 1 / 30
         self.clock.publish(Clock(rospy.Time.from_sec(self.now_s)))
         frames = [self.frame("odom", "base_link"), self.frame("base_link", "laser")]
@@ -139,7 +139,7 @@ class Robot:
                   + " ".join(self.log(node.name)[-600:] for node in self.nodes))
 
     def outcome(self, goal):
-        """Sends a goal; gives its status as soon as there is one."""
+        """Sends a goal and returns its status as soon as there is one."""
         self.now_s += 1.0
         goal.header.stamp = rospy.Time.from_sec(self.now_s)
         self.goals.publish(goal)

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reads follow simulated time: the same motion gives the same reads at any speed of simulation."""
+"""Reads depend on simulated time only: equal motion gives equal reads at any simulation speed."""
 
 from gazebo import (
     RATE_HZ, Run, antenna, case, check, check_equal, check_near, main, messages, nanoseconds,
     recorded_in, schedule, tag, world)
 
 SECONDS = 4.0
-# Two tags on set paths, one at rest, an antenna at rest and one that moves.
+# Two tags on given paths, a static one, a fixed antenna and a moving one.
 MODELS = (antenna("gate", 0, 0, 2, "<range>6</range><communication_gain>3</communication_gain>"),
           antenna("cart", -3, 1, 1, "<range>6</range><seed>7</seed>", static=False),
           tag("rest", 2, 1, 1), tag("slow", -4, 2, 1, static=False),
@@ -18,8 +18,8 @@ MOTIONS = ('<move time="0" model="slow" velocity="0.5 0 0"/>'
 
 
 def reads_at(context, factor):
-    """All reads of the world at a multiple of real time, without the messages' counters, and the wall
-    time in which they came [s]."""
+    """All reads of the world at a multiple of real time, without the messages' sequence numbers, and the
+    wall time [s] in which they arrived."""
     name = f"factor_{factor}"
     (context.folder / name).mkdir()
     log = context.folder / name / "schedule.log"
@@ -53,11 +53,11 @@ def real_time_slowed_down_and_free_running_give_the_same_reads(context):
 def stamps_are_the_updates_times_on_the_steps_of_physics(context):
     reads, _ = reads_at(context, 0.0)
     stamps = sorted({read[0] for read in reads if read[1] == "gate"})
-    # The first step after n/15 s, and so within its 1 ms.
+    # At the first step after n/15 s, and so within 1 ms.
     for number, stamp in enumerate(stamps):
         check_near(stamp * 1e-9, number / RATE_HZ + 0.0005, 0.00051 if number else 0.00052,
                    f"stamp {number}")
-    # The step in which the schedule stops the world is made to its end.
+    # The step in which the schedule stops the world is completed.
     check_equal(len(stamps), int(SECONDS * RATE_HZ) + 1, "updates")
 
 

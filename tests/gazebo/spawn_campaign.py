@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tags and antennas come and go by the thousand in the real gzserver, each loading its plugin anew: it lives, and its
-memory grows no more than with as many models without sensors.
+"""Spawns and deletes thousands of tags and antennas in the real gzserver, each with its own plugin instance: it does
+not crash, and its memory grows no more than with as many models without sensors.
 
-    spawn_campaign.py --plugins build/gazebo/lib --tagfield … --source … --build …   as the tests in Gazebo
+    spawn_campaign.py --plugins build/gazebo/lib --tagfield … --source … --build …   like the tests in Gazebo
 
-TAGFIELD_SPAWNS is how many tags (default 10,000), 2,000 in each gzserver, and 2,000 models without sensors beside them.
-Antennas are a tenth as many.
-No gzserver takes ten thousand, whatever they are: Gazebo 11 keeps the collision spaces of deleted models, each step looks
-for collisions among all of them, and after some 7,200 models ODE's stack of that search overflows, which ends it.
+TAGFIELD_SPAWNS is the number of tags (default 10,000), 2,000 per gzserver, plus 2,000 models without sensors for
+comparison. There are a tenth as many antennas.
+No gzserver survives ten thousand models of any kind: Gazebo 11 keeps the collision spaces of deleted models, each step
+searches for collisions among all of them, and after some 7,200 models ODE's stack overflows in that search.
 """
 
 import math
@@ -20,12 +20,12 @@ from gazebo import (
 
 COUNT = int(os.environ.get("TAGFIELD_SPAWNS", "10000"))
 OF_A_SERVER = min(COUNT, 2000)
-EACH_S = 0.02  # between two that come: a step
+EACH_S = 0.02  # time between two insertions: one step
 LIFE_S = 0.5
 
 
 def server_memory(world_file):
-    """Of the gzserver with this world, resident [MB]; None where it runs no more."""
+    """Resident memory [MB] of the gzserver with this world; None if it no longer runs."""
     for folder in pathlib.Path("/proc").glob("[0-9]*"):
         try:
             words = (folder / "cmdline").read_bytes().split(b"\0")
@@ -41,8 +41,8 @@ def went(log):
 
 
 def growth(context, name, of_name, others, count=OF_A_SERVER):
-    """Memory that each model leaves behind [kB]; of those that come and go in one server, `of_name(NAME, X, Y)` each,
-    among `others` that stay."""
+    """Memory [kB] that each deleted model leaves behind in one server; models are `of_name(NAME, X, Y)`, and `others`
+    stay."""
     events = "".join(insert(1.0 + EACH_S * i, of_name(f"{name}_{i}", i % 10, i // 10 % 10))
                      + remove(1.0 + EACH_S * i + LIFE_S, f"{name}_{i}") for i in range(count))
     log = context.folder / f"{name}.log"
@@ -61,7 +61,7 @@ def growth(context, name, of_name, others, count=OF_A_SERVER):
 
 
 def check_growth(with_sensors, without, what):
-    """Gazebo itself keeps something of each model and of each sensor."""
+    """Compares memory growth with and without sensors, as Gazebo itself leaks some memory for each."""
     print(f"each leaves {with_sensors:.2f} kB behind, and {without:.2f} kB without a sensor", flush=True)
     check_between(with_sensors - without, -10.0, 10.0, f"growth by {what} [kB each]")
 

@@ -12,7 +12,7 @@ UPDATE_NS = 66_700_000  # One update at 15 Hz, on steps of 1 ms.
 
 
 def presence(log):
-    """By model: when it came and when it went [ns], each time, as the test's own plugin saw it."""
+    """Times of insertion and deletion [ns] of each model, as logged by the test's plugin."""
     spans = {}
     for line in read_if_there(log).splitlines():
         stamp, what, *name = line.split()
@@ -24,8 +24,8 @@ def presence(log):
 
 
 def check_reads_follow(found, spans, tags):
-    """Each update reads all tags that were there for one update already, and none that went an
-    update ago."""
+    """Checks that each update reads all tags that have existed for one update period, and none that was
+    deleted an update period ago."""
     for message in found:
         stamp = nanoseconds(message.header.stamp)
         read = {one.epc for one in message.reads}
@@ -102,7 +102,7 @@ def a_reset_of_the_world_begins_the_same_reads_again(context):
     for message in found:
         reads.setdefault(nanoseconds(message.header.stamp), []).append(
             [(one.epc, one.phase, one.rssi) for one in message.reads])
-    # The first update of each life is on the step at which it begins.
+    # Without the first updates, which are at the step at which the antenna starts or is reset.
     twice = [both for stamp, both in reads.items() if 10_000_000 < stamp < 1_900_000_000]
     check_equal({len(both) for both in twice}, {2}, "updates at one stamp")
     check(all(both[0] == both[1] for both in twice), "reads at one stamp differ")
@@ -129,7 +129,7 @@ def a_set_of_tags_is_one_model_with_a_table(context):
     check_equal(len(places), 502, "tags of the set")
     check_equal(len(found[0].reads), 502, "tags read")
     check_equal(found[-1].reads, [], "tags read when the set has gone")
-    # A quarter turn about (1, 1): E0049 at (4.9, 0) goes to (1, 5.9), F1 at (1, 2) to (-1, 2).
+    # A rotation by 90° at (1, 1) moves E0049 at (4.9, 0) to (1, 5.9) and F1 at (1, 2) to (-1, 2).
     for epc, (x, y, z) in {"E0049": (1.0, 5.9, 0.5), "F1": (-1.0, 2.0, 3.0)}.items():
         place = places[epc]
         check(max(abs(place.x - x), abs(place.y - y), abs(place.z - z)) < 1e-9, f"place of {epc}")

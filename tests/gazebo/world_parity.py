@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a world's solids are where Gazebo 11 has them.
+"""Compares the poses of a world's solids with those in Gazebo 11.
 
     world_parity.py [--plugins build/gazebo/lib] [--poses build/release/bin/world_poses]
                     [--model-path DIR]… [--list] WORLD_OR_MODEL…
 
-Each file is loaded by the real gzserver, which tells all collisions' poses before its first step, and by
-Tagfield. A file of a model alone is put into a world. Prints a line a file: how many solids agree to 1e-5 m
-and rad, how many differ, how many one of the two does not have. The exit code is 1 where any differ.
+Each file is loaded by the real gzserver, which reports the poses of all collisions before its first step,
+and by Tagfield. A model file is included in a world. Prints one line per file: numbers of solids that
+agree to 1e-5 m and rad, that differ, and that exist in only one of the two. The exit code is 1 if any differ.
 """
 
 import argparse
@@ -30,7 +30,7 @@ Parity = collections.namedtuple("Parity", "agree differ ours_alone theirs_alone 
 
 
 def poses_in(text):
-    """Lines NAME<tab>seven numbers as {name: [numbers, …]}; names may stand there several times."""
+    """Parses lines NAME<tab>seven numbers to {name: [numbers, …]}; names may occur several times."""
     poses = collections.defaultdict(list)
     for line in text.splitlines():
         name, _, numbers = line.partition("\t")
@@ -47,7 +47,7 @@ def tagfield_poses(program, world, model_paths):
 
 
 def gazebo_poses(plugins, world, model_paths, folder):
-    """None where Gazebo does not load it."""
+    """Poses of the collisions in Gazebo, or None if it does not load the world."""
     out = folder / "poses.txt"
     out.unlink(missing_ok=True)
     home = folder / "home"
@@ -66,13 +66,13 @@ def gazebo_poses(plugins, world, model_paths, folder):
 
 
 def apart(one, other):
-    """The greater of two poses' distances in place [m] and in their quaternions."""
+    """The greater of the distances of two poses in position [m] and in their quaternions."""
     turn = min(math.dist(one[3:], other[3:]), math.dist(one[3:], [-part for part in other[3:]]))
     return max(math.dist(one[:3], other[:3]), turn)
 
 
 def take_nearest_pair(ours, theirs):
-    """The distance of the two poses nearest each other, which are taken out of the lists."""
+    """Removes the two poses nearest to each other from the lists, and returns their distance."""
     one, other = min(itertools.product(ours, theirs), key=lambda pair: apart(*pair))
     ours.remove(one)
     theirs.remove(other)
@@ -80,7 +80,7 @@ def take_nearest_pair(ours, theirs):
 
 
 def compare(ours, theirs):
-    """Solids of one name are paired by their poses."""
+    """Compares solids; those with the same name are paired by their poses."""
     agree, words, alone = 0, [], [0, 0]
     for name in sorted({*ours, *theirs}):
         mine, gazebos = list(ours.get(name, [])), list(theirs.get(name, []))
@@ -98,7 +98,7 @@ def compare(ours, theirs):
 
 
 def as_world(file, folder):
-    """The file itself, or a world around its model."""
+    """The file itself, or a world that includes its model."""
     text = file.read_text(encoding="utf-8", errors="replace")
     if re.search(r"<world[\s>]", text):
         return file
@@ -109,7 +109,7 @@ def as_world(file, folder):
 
 
 def parity(file, plugins, program, model_paths, folder):
-    """None where Gazebo does not load the file."""
+    """The comparison for a file, or None if Gazebo does not load it."""
     world = as_world(file, folder)
     theirs = gazebo_poses(plugins, world, model_paths, folder)
     return None if theirs is None else compare(tagfield_poses(program, world, model_paths), theirs)

@@ -1,18 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Solids are where the real Gazebo 11 has them."""
+"""Poses of solids agree with those in the real Gazebo 11."""
 
 import pathlib
 
 from gazebo import Skip, TOP, case, check, check_equal, main, require_gazebo
 from world_parity import parity
 
-# Of those that come with Gazebo.
+# Worlds that come with Gazebo.
 GAZEBOS = ("nested_model", "heightmap", "polyline")
 ROOT = TOP / "build/gazebo-root"
 
-# Poses in other frames, included models renamed and moved, one twice, and a saved state, which goes before that. The
-# nested model has no relative_to: there Gazebo 11 says that it can't, and takes the pose as it stands.
+# Poses in other frames, included models that are renamed and moved, one of them twice, and a saved state, which takes
+# precedence. The nested model has no relative_to, which Gazebo 11 reports as unsupported there, using the raw pose.
 WORLD = """<?xml version="1.0"?>
 <sdf version="1.7">
   <world name="default">

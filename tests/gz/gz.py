@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests in a real gz-sim share: its server, worlds, and what came of a run."""
+"""Common parts of the tests in a real gz-sim: its server, worlds, and results of a run."""
 
 import os
 import pathlib
@@ -22,7 +22,7 @@ SYSTEMS = "".join(
 
 
 def environment(context):
-    """Where gz-sim finds plugins and models, and a partition of its own."""
+    """Environment with paths of plugins and models, and a separate transport partition."""
     prefix = os.environ.get("TAGFIELD_GZ_PREFIX", "")
     plugins = [str(context.build / "lib"), f"{prefix}/lib/ign-gazebo-6/plugins"]
     env = dict(os.environ)
@@ -41,7 +41,7 @@ def environment(context):
 
 
 def require_server():
-    """Ends the test as skipped, with one line, where no server was built."""
+    """Ends the test as skipped, with one line, if no server was built."""
     build = pathlib.Path(sys.argv[sys.argv.index("--build") + 1])
     if not (build / "bin/gz_test_server").exists():
         print(f"skipped: {MISSING}")
@@ -49,8 +49,8 @@ def require_server():
 
 
 def serve(context, world, script, before=()):
-    """Runs the script in a server with the world's text, by a command that others stand before; gives
-    all that it said."""
+    """Runs the script in a server with the world's text, with the words of `before` as a prefix of the
+    command; returns its output."""
     server = context.build / "bin/gz_test_server"
     if not server.exists():
         raise Skip(MISSING)
@@ -66,7 +66,7 @@ def serve(context, world, script, before=()):
 
 
 def world(*parts, settings=""):
-    """A world without gravity, that records what Tagfield tells."""
+    """A world without gravity that records Tagfield's messages."""
     return (f'<?xml version="1.0"?><sdf version="1.8"><world name="hall">{SYSTEMS}'
             f'<plugin filename="tagfield-gz" name="tagfield::systems::Rfid"><ros2>false</ros2>'
             f'<mcap>run.mcap</mcap>{settings}</plugin><gravity>0 0 0</gravity>'
@@ -94,12 +94,12 @@ def tag(name, x, y, z, parameters="", static=True):
 
 
 def errors(said):
-    """Its lines with an error; from Ionic on they are marked otherwise."""
+    """Lines of the output with an error; their format changed in Ionic."""
     return [line for line in said.split("\n") if "[Err]" in line or "[error]" in line]
 
 
 def recorded(context, said_by="run.mcap", name="located"):
-    """The reads, and the folder, of what a server recorded."""
+    """Localizes from a server's recording and returns the results folder."""
     folder = context.folder / name
     context.run_well("localize", context.folder / said_by, "--tag-height", "1", "--out", folder)
     return folder

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tagfield in a real gz-sim: the same reads as headless, and nothing that stops the server."""
+"""Tagfield in a real gz-sim: the same reads as headless, and nothing crashes the server."""
 
 import json
 import math
@@ -15,7 +15,7 @@ from hall import SECONDS, headless, reads_in, scenario
 
 
 def moving():
-    """The cart and one tag on their way, a pose every 20 ms, as in Gazebo 11's test."""
+    """Motion of the cart and one tag, with a pose every 20 ms, as in the test of Gazebo 11."""
     lines = []
     for step in range(int(SECONDS / 0.02)):
         now = 0.02 * step
@@ -27,8 +27,8 @@ def moving():
 
 
 def check_parity(context, kind, settings, least):
-    """The poses that gz-sim had, replayed headless, give the same reads byte for byte."""
-    # DART, gz-sim's physics, takes no mirrored meshes; the paper's model knows no power.
+    """Checks that replaying gz-sim's poses headless gives the same reads byte for byte."""
+    # DART, gz-sim's physics engine, rejects mirrored meshes; the paper's model has no transmit power.
     cart = "" if kind == "paper" else "transmit_power_dbm: 27, "
     path = scenario(context, kind, settings, scale="1.5 1 2", cart=cart)
     sdf = context.folder / f"{kind}.sdf"
@@ -66,7 +66,7 @@ def multipath_of_order_two_is_the_same(context):
 
 @case
 def sensors_come_move_and_go(context):
-    """A tag comes at 1 s, moves at 2 s and goes at 3 s; an antenna comes at 2 s."""
+    """A tag is inserted at 1 s, moves at 2 s and is removed at 3 s; an antenna is inserted at 2 s."""
     new_tag = context.write("tag.sdf", f'<sdf version="1.8">{tag("late", 3, 0, 1)}</sdf>')
     new_gate = context.write("gate.sdf", f'<sdf version="1.8">{antenna("second", 0, 2, 1)}</sdf>')
     serve(context, world(antenna("gate", 0, 0, 1), tag("first", 2, 0, 1)),
@@ -127,7 +127,7 @@ def settings_without_effect_are_warned_of(context):
 
 @case
 def a_reset_begins_anew(context):
-    """The same second twice: antennas are due at the same stamps again."""
+    """The first second twice: after a reset, antennas update at the same stamps again."""
     said = serve(context, world(antenna("gate", 0, 0, 1), tag("first", 2, 0, 1)),
                  ["run 1", "run 0.5", "reset", "run 1"])
     check_equal(errors(said), [], "errors")
@@ -142,7 +142,7 @@ def a_reset_begins_anew(context):
 
 @case
 def time_goes_back_and_reads_go_on(context):
-    """From 3 s to 1 s: antennas are due from there on, tags that came later are still there."""
+    """A jump from 3 s to 1 s: antennas update from there on, and tags inserted later still exist."""
     late = context.write("tag.sdf", f'<sdf version="1.8">{tag("late", 3, 0, 1)}</sdf>')
     said = serve(context, world(antenna("gate", 0, 0, 1), tag("first", 2, 0, 1)),
                  ["run 2", f"create {late}", "run 1", "seek 1", "run 3"])
@@ -150,7 +150,7 @@ def time_goes_back_and_reads_go_on(context):
     folder = context.folder / "located"
     result = context.run_well("localize", context.folder / "run.mcap", "--tag-height", "1", "--out",
                               folder)
-    # Of 2 s with the first tag and 1 s with both.
+    # Reads of 2 s with the first tag, of which 1 s with both.
     repeated = re.search(r"(\d+) reads repeat the stamp, antenna and tag", result.err)
     check(repeated and 40 <= int(repeated.group(1)) <= 46, f"{result.err!r} tells of no way back")
     stamps = [float(read["stamp_s"]) for read in read_csv(folder / "reads.csv")
@@ -161,7 +161,7 @@ def time_goes_back_and_reads_go_on(context):
 
 @case
 def gazebos_own_topics_and_its_window_are_told(context):
-    """Also who comes late, and of tags that stay where they are."""
+    """Late subscribers receive the messages, too, also of tags that do not move."""
     said = serve(context, world(antenna("gate", 0, 0, 1, "<range>5</range>"), tag("near", 2, 0, 1),
                                 tag("far", 20, 0, 1)),
                  ["run 1", "hear /rfid/reads", "hear /rfid/truth/antennas", "hear /rfid/truth/tags",
@@ -230,7 +230,7 @@ def the_robot_drives_its_way_and_tags_are_located(context):
 
 @case
 def ros_2_hears_the_reads_without_a_bridge(context):
-    """Fast DDS, in a network of its own with the server, gets a message an update."""
+    """Fast DDS, in a separate network namespace with the server, receives one message per update."""
     listener = context.build / "bin/ros2_listener"
     if not listener.exists():
         raise Skip("Fast DDS is not there (libfastrtps-dev)")
@@ -248,7 +248,7 @@ def ros_2_hears_the_reads_without_a_bridge(context):
     heard = [json.loads(line) for line in
              (context.folder / "heard.txt").read_text(encoding="utf-8").splitlines()]
     reads = [line for line in heard if line["kind"] == "message" and "rfid/reads" in line["topic"]]
-    # Finding each other may take some updates; 45 are made.
+    # Discovery may take some of the 45 updates.
     check(20 <= len(reads) <= 45, f"{len(reads)} messages of reads")
     for line in reads:
         check("first".encode().hex() in line["cdr"], f"no read of the tag in {line['cdr'][:80]}")
@@ -258,7 +258,7 @@ def ros_2_hears_the_reads_without_a_bridge(context):
 
 @case
 def our_models_are_found_and_read(context):
-    """What `model://` names: a shelf of tags with its table, an antenna, a robot that DiffDrive drives."""
+    """Models by `model://`: a set of tags with its table, a tag, an antenna, a robot with DiffDrive."""
     def include(name, pose):
         return f"<include><uri>model://{name}</uri><pose>{pose}</pose></include>"
     said = serve(context, world(include("rfid_antenna", "0 0 1 0 0 0"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A headless Chromium that draws with WebGL in software, and what the page's tests ask it."""
+"""A headless Chromium with WebGL in software, and the queries of the page's tests."""
 
 import base64
 import contextlib
@@ -27,7 +27,7 @@ READY = "!!document.getElementById('tagfield-view')?.tagfield?.world.tags.length
 
 
 def decode_png(data):
-    """Rows of (r, g, b) of a PNG of 8 bits a channel without interlacing (RFC 2083)."""
+    """Rows of (r, g, b) of a PNG with 8 bits per channel and without interlacing (RFC 2083)."""
     at, packed, header = 8, b"", None
     while at < len(data):
         length, kind = struct.unpack(">I4s", data[at:at + 8])
@@ -67,7 +67,7 @@ def unfiltered(kind, line, above, size):
     return line
 
 
-# Of axe's violations those that it calls serious or critical.
+# axe's violations with impact serious or critical.
 AXE = """
 const done = arguments[arguments.length - 1];
 axe.run(document, {resultTypes: ['violations']}).then(found => done(found.violations
@@ -78,7 +78,7 @@ axe.run(document, {resultTypes: ['violations']}).then(found => done(found.violat
 
 
 def serious_barriers(driver, axe):
-    """What axe-core, whose source is `axe`, finds wrong with the page that is open: a line each."""
+    """Serious accessibility violations of the open page, found by axe-core with the source `axe`."""
     driver.execute_script(axe)
     return driver.execute_async_script(AXE)
 
@@ -110,7 +110,7 @@ class Browser:
                      features=[{"name": "prefers-color-scheme", "value": theme}])
 
     def open(self, address):
-        """Opens it and waits until its tags are there."""
+        """Opens the page and waits until it has its tags."""
         self.driver.get("about:blank")
         self.driver.get_log("browser")
         self.driver.get_log("performance")
@@ -118,7 +118,7 @@ class Browser:
         self.wait(READY, "the page has its tags")
 
     def ask(self, expression, *arguments):
-        """The value of an expression of JavaScript over view, at, world and arguments."""
+        """The value of a JavaScript expression with the variables view, at, world and arguments."""
         return self.driver.execute_script(f"{PAGE} return ({expression});", *arguments)
 
     def do(self, statements, *arguments):
@@ -136,7 +136,7 @@ class Browser:
         return check(False, f"after {seconds} s not: {what}")
 
     def text(self, part):
-        """What a person reads in one part of the page: "detail", "status", "time" …"""
+        """The visible text of one part of the page: "detail", "status", "time" …"""
         return self.ask(f"at.{part}.innerText")
 
     def pixels(self, x, y, width, height):
@@ -145,7 +145,7 @@ class Browser:
         return decode_png(base64.b64decode(image["data"]))
 
     def project(self, place):
-        """Pixel of a point of frame W [m]."""
+        """Pixel of a point [m] in frame W."""
         x, y = self.ask(f"view.stage.project(...{json.dumps(list(place))})")
         left, top = self.ask("(({left, top}) => [left, top])(at.canvas.getBoundingClientRect())")
         return [x + left, y + top]
@@ -165,7 +165,7 @@ class Browser:
                 "if (!one) throw new Error(`no button ${arguments[1]}`); one.click();", part, text)
 
     def still(self):
-        """Waits until nothing more is drawn."""
+        """Waits until no more frames are drawn."""
         before = -1
         for _ in range(100):
             now = self.ask("view.stage.frames")
@@ -176,12 +176,12 @@ class Browser:
         check(False, "the page goes on drawing")
 
     def complaints(self):
-        """Warnings and errors of the console; not that the server refused something."""
+        """Warnings and errors of the console, except for rejected requests (Conflict)."""
         return [entry["message"] for entry in self.driver.get_log("browser")
                 if entry["level"] in ("WARNING", "SEVERE") and "(Conflict)" not in entry["message"]]
 
     def requests(self):
-        """All addresses that the page asked for, WebSockets too."""
+        """All URLs that the page requested, including WebSockets."""
         addresses = []
         for entry in self.driver.get_log("performance"):
             message = json.loads(entry["message"])["message"]
@@ -219,7 +219,7 @@ def webgl_or_skip(one):
 
 
 class Bundle:
-    """The page, built once in the build's folder, with npm's packages."""
+    """The page, built once in the build folder, with npm packages."""
 
     def __init__(self, context):
         for program in ("node", "npm"):
@@ -240,7 +240,7 @@ class Bundle:
 
 @contextlib.contextmanager
 def mock(context, bundle, folder, *arguments, port=0):
-    """Address of a mock server of the run in `folder`."""
+    """Starts a mock server of the run in `folder`; yields its address."""
     command = ["node", bundle.source / "test" / "mock.mjs", bundle.page, folder,
                context.source / "worlds" / "small_warehouse.sdf", "--modules", bundle.modules,
                "--port", port, *arguments]

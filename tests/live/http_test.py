@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""'tagfield serve' as HTTP and WebSocket clients see it, the well-behaved and the others.
+"""'tagfield serve' with well-behaved and misbehaving HTTP and WebSocket clients.
 
     http_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
 """
@@ -34,7 +34,7 @@ PORTAL = "portal"
 
 
 def as_json_schema(node, components):
-    """A schema of OpenAPI 3.0 as one of JSON Schema draft 4: nullable is a type, too."""
+    """Converts an OpenAPI 3.0 schema to JSON Schema draft 4, with `nullable` as type "null"."""
     if isinstance(node, list):
         return [as_json_schema(entry, components) for entry in node]
     if not isinstance(node, dict):
@@ -48,7 +48,7 @@ def as_json_schema(node, components):
 
 
 class Contract:
-    """openapi.json as it is served."""
+    """The served openapi.json, with checks of responses against it."""
 
     def __init__(self, server):
         self.document = server.get("/api/openapi.json")
@@ -71,7 +71,7 @@ class Contract:
 
 
 def reads_of(server, count, target="/api/reads"):
-    """So many lines of a stream."""
+    """The first `count` lines of a stream."""
     connection = server.connection()
     connection.request("GET", target)
     response = connection.getresponse()
@@ -134,7 +134,7 @@ def reads_are_those_of_the_headless_run(context):
         connection = server.connection()
         connection.request("GET", "/api/reads")
         response = connection.getresponse()
-        time.sleep(0.2)  # it is among the listeners
+        time.sleep(0.2)  # until it is subscribed
         server.post("/api/resume")
         lines = [json.loads(response.readline()) for _ in expected]
         connection.close()
@@ -227,7 +227,7 @@ def tags_are_located_while_reads_come_in(context):
         check(len(first["estimates"]) < len(truth), "all tags are located from the start")
         server.wait_for(lambda status: status["time"] > 100, "the end of the path", 30)
         server.post("/api/pause")
-        # What was read is still worked on, for as long as other work leaves time for.
+        # Reads so far are still processed, which may take long on a busy machine.
         end = time.monotonic() + 60
         while time.monotonic() < end:
             answer = server.get("/api/estimates")
@@ -241,7 +241,7 @@ def tags_are_located_while_reads_come_in(context):
             place = one["candidates"][0]
             error = math.dist(place["position"][:2], truth[one["id"]][:2])
             check_between(error, 0, 0.02 + 5 * place["expectedError"], f"error of {one['id']} [m]")
-        # Who looks only now gets all of them at once.
+        # A new client receives all of them at once.
         rows = {row[0]: row[1:] for row in next(frames(server, 1))["estimates"]}
         check_equal(set(rows), set(truth), "tags with an estimate in the frame")
         for one in answer["estimates"]:
@@ -262,7 +262,7 @@ def a_plan_is_shown_beside_its_layout(context):
         rows = read_csv(out / "plan_places.csv")
         check_equal(len(plan["places"]), len(rows), "places")
         check_equal(plan["percent"][2], [round(100 * float(row["p_3"])) for row in rows], "percent with three antennas")
-    # Of another scenario it is there when it is asked for, and what is no plan is said at once.
+    # A plan of another scenario is served if requested explicitly; an invalid one is rejected immediately.
     with served(context, context.shipped(PORTAL), "--plan", out) as server:
         check_equal(server.get("/api/plan")["scenario"], "room", "scenario of the plan")
     result = context.run("serve", context.shipped(PORTAL), "--http", "0", "--plan", context.folder)
@@ -274,7 +274,7 @@ def a_plan_is_shown_beside_its_layout(context):
 
 
 def turned(q, v):
-    """v turned by the quaternion [x, y, z, w]."""
+    """v rotated by the quaternion [x, y, z, w]."""
     def cross(a, b):
         return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     t = [2 * n for n in cross(q[:3], v)]
@@ -282,7 +282,7 @@ def turned(q, v):
 
 
 def distance_to_box(origin, direction, solid):
-    """Along the ray to the box, by its slabs; infinite where it is missed."""
+    """Distance along a ray to a box, by the slab method; infinite if it misses."""
     *p, qx, qy, qz, qw = solid["pose"]
     back = [-qx, -qy, -qz, qw]
     o = turned(back, [origin[i] - p[i] for i in range(3)])
@@ -310,7 +310,7 @@ def lasers_end_where_things_stand(context):
             angle = scan["angle_min"] + i * scan["angle_step"]
             beam = turned(scan["origin"][3:], [math.cos(angle), math.sin(angle), 0])
             nearest = min(distance_to_box(scan["origin"][:3], beam, box) for box in boxes)
-            # Five deviations of its noise; what is no box stands before it.
+            # Five standard deviations of the noise; other shapes may be in front of the box.
             check(distance < nearest + 0.055, f"beam {i} of {distance} m goes through {nearest} m")
             met += abs(distance - nearest) < 0.055
         check(met > 100, f"only {met} of {len(scan['ranges'])} beams end on boxes")
@@ -334,7 +334,7 @@ def what_others_change_is_told_while_paused(context):
 
 @case
 def a_cable_that_is_off_reads_nothing(context):
-    # Paused until then: what was read before the cable was off is told, too.
+    # Paused, as reads from before the disconnection would be reported, too.
     with served(context, context.shipped(PORTAL), "--speed", "20", "--paused") as server:
         server.post("/api/antennas/port_1/disconnect")
         status, answer = server.ask("GET", "/api/explain?antenna=port_1&tag=tag_01")
@@ -388,7 +388,7 @@ def whoever_can_reach_it_needs_the_token_to_command(context):
 
 
 def exchange(server, data, seconds=5):
-    """What comes back for these bytes, until it closes or falls silent."""
+    """Sends bytes and returns the response, b"" if there is none."""
     with socket.create_connection(("127.0.0.1", server.port), timeout=seconds) as client:
         try:
             client.sendall(data)
@@ -493,7 +493,7 @@ def it_ends_within_a_second(context):
 
 
 def keep_asking(server, is_over, ask):
-    """Again and again, whatever comes of it, until it is over."""
+    """Repeats a request, ignoring errors, until `is_over` is set."""
     while not is_over.is_set():
         try:
             ask(server)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""'tagfield serve --llrp' as LLRP clients see it: that of examples/07_llrp_client, llrpjs, and tshark,
-which looks at all that was sent.
+"""'tagfield serve --llrp' with LLRP clients: that of examples/07_llrp_client, llrpjs, and tshark, which
+dissects all messages.
 
     llrp_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
 """
@@ -32,7 +32,7 @@ ALL_EVENTS = b"".join(parameter(245, struct.pack("!HB", kind, 0x80)) for kind in
 
 
 class Client(Reader):
-    """One that keeps what came unasked, and all bytes in either direction."""
+    """A client that stores unsolicited messages, and all bytes in both directions."""
 
     def __init__(self, server, number=0):
         self.sent, self.received, self.unasked = [], [], []
@@ -51,7 +51,7 @@ class Client(Reader):
         return kind, body
 
     def wait_for(self, kind, seconds=20):
-        """The next message of this type, or of an event of it (a negative one)."""
+        """The next message of a type, or the next event of a type (given as a negative number)."""
         self.socket.settimeout(seconds)
         while True:
             got, body = self.receive()
@@ -65,7 +65,7 @@ class Client(Reader):
                 self.send(72)
 
     def status(self, kind, body=b""):
-        """Status code of the answer, whatever it is."""
+        """Status code of the response, successful or not."""
         self.send(kind, body)
         while True:
             got, content = self.receive()
@@ -73,7 +73,7 @@ class Client(Reader):
                 return struct.unpack_from("!H", content, 4)[0]
 
     def run_for(self, spec, seconds=60):
-        """Adds and enables a ROSpec, and gives back its reports when it has ended."""
+        """Adds and enables an ROSpec, and returns its reports after it has ended."""
         self.ask(20, spec)
         identifier = spec[4:8]
         self.ask(24, identifier)
@@ -87,14 +87,14 @@ class Client(Reader):
 
 
 def events_in(body):
-    """{type: content} of what a READER_EVENT_NOTIFICATION holds."""
+    """{type: content} of the events in a READER_EVENT_NOTIFICATION."""
     (_, data), = parameters(body)
     return dict(parameters(data))
 
 
 def spec_of(identifier=1, antennas=(0,), start=b"\0", duration_ms=0, ai_stop=b"\0" + bytes(4),
             setting=b"", trigger=1, every=1, selected=0x17C0, extra=b"", priority=0):
-    """A ROSpec as a client would put it together."""
+    """An ROSpec as clients encode it."""
     boundary = parameter(178, parameter(179, start) + parameter(
         182, struct.pack("!BI", 1 if duration_ms else 0, duration_ms)))
     ai = parameter(183, struct.pack(f"!H{len(antennas)}H", len(antennas), *antennas) +
@@ -221,7 +221,8 @@ def fine_rssi():
 
 @case
 def a_session_silences_tags_that_were_read(context):
-    """In S2, target A, a tag with power is read once and then is silent; by turns in S0 it is not."""
+    """With session S2 and target A, a powered tag is read once and then stays silent; with S0 and dual
+    target it is read repeatedly."""
     counts = {}
     with started(context, "--speed", "max") as server:
         client = connected(server)
@@ -240,7 +241,7 @@ def a_session_silences_tags_that_were_read(context):
 def triggers_start_and_stop(context):
     with started(context, "--speed", "20") as server:
         client = connected(server)
-        # By a client, and stopped by it.
+        # Started and stopped by a client.
         client.ask(20, spec_of(1))
         client.ask(24, struct.pack("!I", 1))
         check_equal(client.status(23, struct.pack("!I", 1)), 101, "status of stopping what is inactive")
@@ -250,7 +251,7 @@ def triggers_start_and_stop(context):
         client.ask(23, struct.pack("!I", 1))
         check_equal(client.wait_for(-249)[0], 1, "event of the end")
         client.ask(21, struct.pack("!I", 0))
-        # Again and again.
+        # Started periodically.
         client.ask(20, spec_of(2, start=b"\2" + parameter(180, struct.pack("!II", 500, 2000)),
                                duration_ms=500))
         client.ask(24, struct.pack("!I", 2))
@@ -263,12 +264,12 @@ def triggers_start_and_stop(context):
         for a, b in zip(starts, starts[1:]):
             check_near((b - a) / 1e6, 2.0, 0.011, "time between periodic starts [s]")
         client.ask(21, struct.pack("!I", 0))
-        # Until three tags are seen; each report with one of them.
+        # Until three tags are seen.
         tags = client.run_for(spec_of(3, start=IMMEDIATE, trigger=2, every=0, ai_stop=b"\3" + bytes(4) +
                                       parameter(185, struct.pack("!BBHHHI", 0, 0, 3, 0, 0, 60000))))
         check_equal(len({tag["epc"] for tag in tags}), 3, "tags until three are seen")
         check_equal(len(tags), len({(tag["epc"], tag["antenna"]) for tag in tags}), "reports")
-        # Until no new one comes for half a second.
+        # Until no new tag is seen for half a second.
         tags = client.run_for(spec_of(4, start=IMMEDIATE, trigger=2, every=0, antennas=(1,),
                                       ai_stop=b"\3" + bytes(4) +
                                       parameter(185, struct.pack("!BBHHHI", 1, 0, 0, 0, 500, 60000))))
@@ -306,7 +307,7 @@ def the_higher_rank_goes_first(context):
 
 
 def access_spec(identifier, operations, epc, count=1):
-    """On the tag of this EPC, whose bits begin after CRC and PC."""
+    """An AccessSpec for the tag with this EPC, whose bits begin after CRC and PC."""
     data = bytes.fromhex(epc)
     target = parameter(339, struct.pack("!BHH", 1 << 6 | 0x20, 32, 8 * len(data)) +
                        b"\xff" * len(data) + struct.pack("!H", 8 * len(data)) + data)
@@ -336,7 +337,7 @@ def tags_are_read_written_locked_and_killed(context):
         identifier = 0
 
         def operate(epc, *operations):
-            """Results of these operations on the tag, by type."""
+            """EPC of the tag, and the results of these operations on it as (type, content)."""
             nonlocal identifier
             identifier += 1
             client.ask(40, access_spec(identifier, operations, epc))
@@ -351,7 +352,7 @@ def tags_are_read_written_locked_and_killed(context):
         check_equal([(kind, value[0]) for kind, value in results], [(349, 0), (349, 0), (349, 1)],
                     "results of reading")
         check_equal(results[0][1][5:7], b"\xe2\x00", "class of the TID")
-        # A new EPC is what is reported from then on.
+        # After writing, the new EPC is reported.
         new = "30395DFA832E5B0000000001"
         operate(first, write_op(1, 2, [int(new[i:i + 4], 16) for i in range(0, 24, 4)]))
         _, results = operate(new, read_op(1, 2, 6))
@@ -363,7 +364,7 @@ def tags_are_read_written_locked_and_killed(context):
                              write_op(3, 0, [2], 1), read_op(3, 0, 1))
         check_equal([value[0] for _, value in results], [0, 2, 0, 5, 0], "results after a lock")
         check_equal(results[-1][1][5:], b"\0\2", "the word")
-        # Killed by its password alone.
+        # Killed only with its password.
         for password, expected in ((8, 4), (7, 0)):
             _, results = operate(new, parameter(343, struct.pack("!HI", 4, password)))
             check_equal(results[0][1][0], expected, f"result of killing with {password}")
@@ -377,13 +378,13 @@ def a_client_keeps_to_itself(context):
     with started(context, "--speed", "20") as server:
         first = connected(server)
         first.ask(20, spec_of(1, start=IMMEDIATE, duration_ms=1000, selected=0))
-        # Of the second it is said that there is one already.
+        # A second client is rejected, as there is one already.
         address = ("127.0.0.1", first.socket.getpeername()[1])
         with socket.create_connection(address, timeout=10) as other:
             told = other.recv(1000)
             check_equal(told[-2:], b"\0\2", "status of the second's attempt")
             check_equal(other.recv(1), b"", "what comes after")
-        # What is reported while nobody is there waits, where it was asked for.
+        # Reports are held while no client is connected, if configured so.
         first.ask(3, b"\0" + parameter(226, b"\x80"))
         first.ask(24, struct.pack("!I", 1))
         first.socket.close()
@@ -433,7 +434,7 @@ def what_is_wrong_gets_its_status(context):
             check_equal(client.status(kind, body), expected, f"status of {what}")
         client.ask(20, good)
         check_equal(client.status(20, good), 101, "status of the same ROSpec twice")
-        # Another version, and what is no LLRP at all: a word, and the end.
+        # Another version, and data that is not LLRP: an error, then the connection is closed.
         for data, expected in ((struct.pack("!HII", 2 << 10 | 1, 11, 1) + b"\0", 110),
                                (b"GET / HTTP/1.1\r\n\r\n", 300)):
             other = Client(server) if client is None else client
@@ -506,7 +507,7 @@ def llrpjs_understands_all_of_it(context):
 
 
 def write_pcap(path, messages):
-    """(from the reader?, bytes) each as a packet of a TCP connection, raw IPv4."""
+    """Writes (is from the reader, bytes) as packets of a TCP connection in raw IPv4."""
     with open(path, "wb") as file:
         file.write(struct.pack("!IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 101))
         place = {True: 1, False: 1}
@@ -555,7 +556,7 @@ def tshark_finds_nothing_malformed(context):
     lines = [line.split("\t") for line in result.out.splitlines()]
     check_equal(len(lines), len(client.received), "packets that tshark lists")
     check(all(line[0] for line in lines), "packets that tshark does not take for LLRP")
-    # Of any Identification it counts two bytes too few, those of the ID's length, and says so.
+    # tshark itself has a fault: for Identification it misses the two bytes of the ID's length.
     own_fault = "Incorrect length of parameter: 17 bytes decoded, but 19 bytes claimed."
     odd = [line for line in lines if len(line) > 2 and line[2] and line[1] != own_fault]
     check_equal(odd, [], "packets that tshark finds malformed")

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The world in the browser, in a real headless Chromium with WebGL in software.
+"""The live page in a real headless Chromium with WebGL in software.
 
     page_live_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
                       [--screenshots DIR] [CASE…]
 
-The page is bundled with npm's packages and shown by a mock server that goes round a real run
-(adapters/http/page/test/mock.mjs); the cases named real_… take 'tagfield serve' instead. Skipped
-where node, npm's packages, Chromium or its WebGL can't be had.
+The page is bundled with npm packages and served by a mock server that replays a real run in a loop
+(adapters/http/page/test/mock.mjs); the cases named real_… use 'tagfield serve' instead. Skipped if node,
+npm packages, Chromium or its WebGL are not available.
 """
 
 import base64
@@ -30,12 +30,12 @@ from npm import npm_packages  # noqa: E402
 from served import served  # noqa: E402
 
 SCENARIO = "warehouse_physics"
-PAGE_TESTS = pathlib.Path(__file__).parent.parent / "page"  # Whose packages have axe.
+PAGE_TESTS = pathlib.Path(__file__).parent.parent / "page"  # Its packages include axe.
 LEAST_CONTRAST = 4.5  # WCAG 2.1, success criterion 1.4.3, for text.
 LARGEST_PAGE = 900_000
 _shared = {}
 
-# What the page is asked for, in JavaScript.
+# Queries to the page, in JavaScript.
 CONTROLS = """[...at.root.querySelectorAll('button, input, select')]
   .filter((one) => one.offsetParent)"""
 NAMELESS = """[...at.root.querySelectorAll('button, input, select, canvas')].filter((one) =>
@@ -56,7 +56,7 @@ TEXT_COLORS = """[...new Set(
 
 
 class Shared:
-    """The run, the bundle and the browser of all cases: each takes seconds to make."""
+    """The run, the bundle and the browser, shared by all cases, as each takes seconds to create."""
 
     def __init__(self, context, stack):
         folder = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="tagfield-")))
@@ -68,7 +68,7 @@ class Shared:
 
 
 def with_page(*arguments):
-    """Marks a case that takes (context, browser, address, shared) with a mock server of its own."""
+    """Decorator of a case with arguments (context, browser, address, shared) and its own mock server."""
     def mark(function):
         @functools.wraps(function)
         def run_it(context):
@@ -112,7 +112,7 @@ def get(address, path):
 
 
 def pose_at(rows, t):
-    """Place of the pose at the time, linear between the rows of a CSV of poses [m]."""
+    """Position [m] at a time, interpolated linearly between the rows of a CSV of poses."""
     stamps = [float(row["stamp_s"]) for row in rows]
     i = min(max(bisect.bisect_right(stamps, t), 1), len(stamps) - 1)
     share = (t - stamps[i - 1]) / (stamps[i] - stamps[i - 1])
@@ -137,12 +137,12 @@ def scene_is_drawn(context, one, address, shared):
     one.do("view.time.toggle()")
     one.still()
     solids = {solid["name"]: solid for solid in get(address, "scene")["solids"]}
-    # Seen from above, nothing stands over the uppermost shelf of a rack but boxes at other places.
+    # Seen from above, the uppermost shelf of a rack is visible here; boxes are elsewhere.
     shelf = solids["racks::rack_west_1::shelf_4"]
     x, y, z = shelf["pose"][:3]
     px, py = one.project([x, y + 0.3, z + shelf["box"][2] / 2])
     color = mean_color(one.pixels(px - 1, py - 1, 3, 3))
-    # Metal is a bluish grey (125, 139, 153): light changes its brightness alone.
+    # Metal is a bluish grey (125, 139, 153): light changes only its brightness.
     for k, part in enumerate((125, 139, 153)):
         check_near(color[k] / sum(color), part / (125 + 139 + 153), 0.02,
                    f"share {k} of a rack's colour {color}")
@@ -186,7 +186,7 @@ def frames_are_drawn_only_when_something_changed(context, one, address, shared):
     one.do("view.time.toggle()")
     one.wait("world.paused", "it stands still")
     one.still()
-    frames_within(one, 3.0)  # what was under way may come late
+    frames_within(one, 3.0)  # pending frames may be delayed
     check_equal(frames_within(one, 1.5), 0, "frames drawn in 1.5 s of a paused world")
     before = one.ask("view.stage.frames")
     one.press_button("time", "Step")
@@ -249,7 +249,7 @@ def coverage_is_drawn(context, one, address, shared):
     one.still()
     after = mean_color(one.pixels(px - 2, py - 2, 5, 5))
     check(max(abs(a - b) for a, b in zip(before, after)) > 15, f"the floor stays {before}: {after}")
-    # The hall with the walls round it is 16.4 m by 20.4 m, and rounded to whole cells.
+    # The hall including its walls is 16.4 m by 20.4 m, rounded up to cells.
     area = float(one.text("detail").split("m² of ")[1].split()[0])
     check_between(area, 16.4 * 20.4, 17 * 21, "the area looked at [m²]")
 
@@ -302,7 +302,7 @@ def ellipses_hold_95_percent(context, one, address, shared):
     for k, row in enumerate(located):
         x, y, _ = position(row)
         xx, xy, yy = (float(row[f"cov_{key}"]) for key in ("xx", "xy", "yy"))
-        # All but the cross's six ends and the two of the line to the true place.
+        # Without the six end points of the cross, and the two of the line to the true position.
         rim = points[k * each + 6:(k + 1) * each - 2]
         for px, py, _ in rim:
             u, v = px - x, py - y
@@ -318,7 +318,7 @@ def beam_ends_at_half_power(context, one, address, shared):
         "[...view.drawing.antennas.items[0].beam.children[0].geometry.attributes.position.array]")
     points = [points[i:i + 3] for i in range(3, len(points), 3)]  # The first is the antenna.
     angles = [math.atan2(math.hypot(y, z), x) for x, y, z in points]
-    # The mock's panel has a gain of cos² of the angle from boresight, given each 5°.
+    # The mock's panel antenna has a gain of cos² of the angle from boresight, in steps of 5°.
     check_near(max(angles), math.pi / 4, 0.01, "the widest angle of the beam drawn [rad]")
     farthest = max(math.dist((0, 0, 0), point) for point in points)
     check_near(farthest, 3.0, 1e-3, "the beam's length at its peak [m]")
@@ -413,7 +413,7 @@ def phone_has_room(context, one, address, shared):
 
 
 def luminance(color):
-    """Relative luminance of (r, g, b) of 0 to 255 (WCAG 2.1)."""
+    """Relative luminance of (r, g, b), each 0 to 255 (WCAG 2.1)."""
     linear = [part / 255 / 12.92 if part <= 10.3 else ((part / 255 + 0.055) / 1.055) ** 2.4
               for part in color]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
@@ -540,7 +540,7 @@ def a_recorded_map_lies_on_the_floor(context):
     one = shared.chromium
     one.screen()
     folder = context.simulate("z_axis", name="mapped")
-    # Three columns, two rows; an image begins with the last row: free, occupied, unknown.
+    # Three columns, two rows, the upper one first: 254 is free, 0 occupied, 205 unknown.
     (folder / "map.pgm").write_bytes(b"P5 3 2 255\n" + bytes([254, 254, 0, 0, 205, 254]))
     (folder / "map.yaml").write_text("image: map.pgm\nresolution: 0.5\norigin: [-1, -2, 0]\nnegate: 0\n"
                                      "occupied_thresh: 0.65\nfree_thresh: 0.196\n", encoding="utf-8")
@@ -611,7 +611,7 @@ def real_plan_is_drawn_in_place_of_the_tags(context):
             one.still()
             px, py = one.project(plan["places"][worst])
             seen.append(mean_color(one.pixels(px - 1, py - 1, 3, 3)))
-        # A place that one antenna hardly reads, grey, and all of them do, yellow.
+        # A position that is hardly read with one antenna (grey), and read with all of them (yellow).
         check(max(seen[0]) - min(seen[0]) < 60, f"with one antenna it is {seen[0]}")
         check(seen[1][0] - seen[1][2] > 90, f"with {last + 1} antennas it is {seen[1]}")
         check(not one.ask("view.drawing.tags.meshes[0].visible"), "tags are drawn over it")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A scenario that 'tagfield serve' lets live, for the tests of those who connect to it."""
+"""A scenario served by 'tagfield serve', for tests of clients."""
 
 import contextlib
 import http.client
@@ -16,7 +16,7 @@ from common import check, clean_environment  # noqa: E402 pylint: disable=wrong-
 
 
 class Served:
-    """The process, and its addresses: ("http", "http://127.0.0.1:PORT") and more, a line each."""
+    """The process and its addresses, one per line: ("http", "http://127.0.0.1:PORT") and others."""
 
     def __init__(self, process, lines):
         self.process = process
@@ -31,7 +31,7 @@ class Served:
         return http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
 
     def ask(self, method, target, body=None, headers=None):
-        """(status, JSON) of one request."""
+        """Sends a request; returns (status, JSON)."""
         connection = self.connection()
         sent = dict(headers or {})
         data = None
@@ -55,7 +55,7 @@ class Served:
         return answer
 
     def wait_for(self, holds, what, seconds=20):
-        """Asks for the status until it is so."""
+        """Polls the status until the condition holds."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             status = self.get("/api/status")
@@ -73,7 +73,7 @@ class Served:
 
 
 def lines_until(process, word, seconds=60):
-    """What it prints on standard output, up to a line that begins with `word`."""
+    """Lines of standard output, up to one that begins with `word`."""
     lines = []
     os.set_blocking(process.stdout.fileno(), True)
     end = time.monotonic() + seconds
@@ -89,8 +89,8 @@ def lines_until(process, word, seconds=60):
 
 @contextlib.contextmanager
 def served(context, scenario, *arguments, last="http", verb="serve"):
-    """Starts it, and ends it, on a port that is free. `last`: the last address that it tells. With `verb` "view" it is
-    a recorded run."""
+    """Starts a server on a free port, and ends it. `last` is the last address that it prints. With `verb`
+    "view", it serves a recorded run."""
     command = [context.tagfield, verb, scenario, "--http", "0", *arguments]
     process = subprocess.Popen([str(word) for word in command], cwd=context.folder,
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,

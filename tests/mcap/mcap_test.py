@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""MCAP files of ours as @mcap/core reads them, and its files as we read them.
+"""Tagfield's MCAP files read by @mcap/core, and its files read by Tagfield.
 
-That package is what Foxglove made for browsers: a reader that goes by the index, one for streams, and
-a writer. npm puts it into the build folder.
+That package is Foxglove's implementation for browsers: an indexed reader, a streaming reader, and a
+writer. npm installs it into the build folder.
 """
 
 import json
@@ -20,7 +20,7 @@ from served import served  # noqa: E402  pylint: disable=wrong-import-position
 
 START_NS = 1_700_000_000_000_000_000
 TOPICS = ("/text", "/pose", "/text/größer")  # of messages 0, 1, 2, 3, …
-# Compression, bytes of a chunk, messages.
+# Compression, chunk size in bytes, number of messages.
 FILES = (("none", 1, 10), ("none", 3000, 1000), ("lz4", 3000, 1000), ("zstd", 3000, 1000),
          ("zstd", 1 << 20, 100_000), ("lz4", 1 << 20, 0))
 
@@ -30,7 +30,7 @@ def others(context, *words):
 
 
 def read_by_others(context, *words):
-    """What they find; None, and a failed check, where they refuse the file."""
+    """Content of a file read by @mcap/core; None, and a failed check, if it rejects the file."""
     result = others(context, *words)
     if not check(result.code == 0, f"@mcap/core refuses it: {result.err.strip()[:500]}"):
         return None
@@ -53,7 +53,7 @@ def write_sample(context, compression, chunk_bytes, count):
 
 
 def sample_messages(count):
-    """What mcap_sample writes, in order: channel, sequence, log time, time of sending, bytes."""
+    """Messages that mcap_sample writes, in order: channel, sequence, log time, publish time, bytes."""
     messages = []
     for i in range(count):
         sent = START_NS + i * 100_000_000
@@ -132,7 +132,7 @@ def its_index_finds_topics_and_times(context):
 
 @case
 def its_readers_notice_a_wrong_byte(context):
-    """Or they would not have checked the CRCs above."""
+    """Otherwise, the readers would not have checked the CRCs above."""
     path = write_sample(context, "none", 3000, 1000)
     whole = path.read_bytes()
     text = whole.index(b"float64 x")
@@ -159,7 +159,7 @@ def we_read_what_its_writer_wrote(context):
                                             for topic in ("/a", "/b"))], f"{kind}: channels")
         check(lines[3:] == [[str(word) for word in message] for message in messages],
               f"{kind}: messages")
-        # Cut off in the middle, it still gives what is whole.
+        # Complete chunks of a truncated file are still read.
         cut = context.write("cut.mcap", path.read_bytes()[:path.stat().st_size // 2])
         found = ours(context, "read", cut)
         check_in("is cut off or broken here", found.err, f"{kind}, cut: warnings")
@@ -211,7 +211,7 @@ def a_runs_messages_are_those_of_its_tables(context):
 
 
 def pgm_cells(path):
-    """Cells of a map file as messages have them, from its lower left corner on."""
+    """Cells of a map file in the order of messages, from the lower left corner on."""
     without_comment = re.sub(rb"#[^\n]*\n", b"", path.read_bytes(), count=1)
     kind, width, height, most, pixels = without_comment.split(maxsplit=4)
     check_equal((kind, most), (b"P5", b"255"), "kind of the image")
@@ -222,14 +222,14 @@ def pgm_cells(path):
 
 
 def mapping_run(context):
-    """Folder of a short run whose robot maps first, and all topics of its file."""
+    """Folder of a short run whose robot maps first, and all topics of its MCAP file."""
     folder = context.simulate("paper_warehouse_slam", "--no-page", "--mcap", context.folder / "run.mcap",
                               "--set", "navigation.mapping.limit_s=5", "--set", "duration_s=2",
                               "--set", "localization.method=hyperbola")
     return folder, read_by_others(context, "decode", context.folder / "run.mcap")
 
 
-# What the panels of the layout can show, of what Foxglove's 3D panel and plots take.
+# Message types of the layout that Foxglove's 3D panel shows, and the syntax of paths in plots.
 SHOWN_IN_3D = {"nav_msgs/msg/OccupancyGrid", "sensor_msgs/msg/LaserScan",
                "visualization_msgs/msg/MarkerArray"}
 MESSAGE_PATH = re.compile(r"(?P<topic>/[\w/]+)(?P<fields>(?:\.\w+(?:\[:\])?(?:\{\w+==\$\w+\})?)*)$")
@@ -237,7 +237,7 @@ FIELD = re.compile(r"\.(?P<name>\w+)(?P<list>\[:\])?(?:\{(?P<key>\w+)==\$(?P<var
 
 
 def values_at(path, topics, variables):
-    """What a message path of Foxglove leads to in all messages, as far as the layout's are written."""
+    """Values at a Foxglove message path in all messages, for the syntax that the layout uses."""
     found = MESSAGE_PATH.match(path)
     if not check(found and found["topic"] in topics, f"{path!r} leads nowhere"):
         return []
@@ -298,7 +298,7 @@ def a_robots_map_and_scans_are_in_the_file(context):
     grid = topics["/map"]["messages"][0]
     width, height, cells = pgm_cells(folder / "map.pgm")
     check_equal((grid["info"]["width"], grid["info"]["height"]), (width, height), "cells of the map")
-    # The file keeps three kinds of cells.
+    # The file distinguishes three kinds of cells.
     told = [-1 if cell < 0 else 100 if cell >= 65 else 0 if cell < 20 else -1 for cell in grid["data"]]
     check(told == cells, "the cells are not those of map.pgm")
     check(cells.count(0) > 1000 and cells.count(100) > 100, "the map is empty")
@@ -351,7 +351,7 @@ def tags_are_tracked_from_the_file_as_from_the_tables(context):
     tables, file, parts = (context.folder / name for name in ("tables", "file", "parts"))
     check_equal((parts / "tracks.csv").read_bytes(), (file / "tracks.csv").read_bytes(), "tracks in parts")
     check_equal((file / "verdicts.csv").read_bytes(), (tables / "verdicts.csv").read_bytes(), "verdicts")
-    # The table's phases have six decimals.
+    # Phases in tables are rounded to six decimals.
     for row, other in zip(read_csv(file / "tracks.csv"), read_csv(tables / "tracks.csv"), strict=True):
         check_equal((row["tag"], row["stamp_s"]), (other["tag"], other["stamp_s"]), "tag and stamp")
         for key in ("x_m", "y_m"):
@@ -368,7 +368,7 @@ def tags_are_tracked_from_the_file_as_from_the_tables(context):
 
 @case
 def the_page_shows_the_file_as_the_runs_folder(context):
-    """But for estimates, which a recording has none of."""
+    """The page shows the same, except for estimates, which a recording lacks."""
     scenario = context.shipped("two_antennas")
     folder = context.simulate("two_antennas", "--no-page", "--mcap", context.folder / "run.mcap")
     with served(context, folder, verb="view") as server:
@@ -385,7 +385,7 @@ def the_page_shows_the_file_as_the_runs_folder(context):
                           reads["rssi"], reads["phase"]))
 
     for one, other in zip(reads_in(shown), reads_in(expected), strict=True):
-        # The table's phases have fewer digits than the file's.
+        # Phases in tables have fewer digits than those in the file.
         if one[:4] != other[:4] or abs(one[4] - other[4]) > 0.0011:
             check(False, f"read {one} is {other} in the folder")
             break
@@ -404,7 +404,7 @@ def the_page_shows_the_file_as_the_runs_folder(context):
 
 @case
 def broken_files_are_told_of(context):
-    """Whole messages are used, with a warning; nothing crashes, and nothing is half-written."""
+    """Complete messages are used, with a warning; no crashes, and no partial results."""
     context.simulate("two_antennas", "--no-page", "--mcap", context.folder / "run.mcap")
     whole = (context.folder / "run.mcap").read_bytes()
     cut = context.write("cut.mcap", whole[:len(whole) * 2 // 3])

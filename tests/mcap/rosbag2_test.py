@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recordings as rosbag2 makes them, databases and folders, located as the MCAP file of the same run.
+"""rosbag2 recordings, as databases and folders, give the same results as the MCAP file of the same run.
 
-The databases are written here, by Python's sqlite3 and the tables of rosbag2 (Jazzy).
+The databases are written by this test, with Python's sqlite3 and the schema of rosbag2 (Jazzy).
 """
 
 import os
@@ -45,7 +45,7 @@ rosbag2_bagfile_information:
 
 
 def recorded(context):
-    """Folder of a run, and the topics and messages of its MCAP file."""
+    """Folder of a run, and the types by topic and the messages of its MCAP file."""
     sample = context.build / "bin/mcap_sample"
     if not sample.exists():
         raise Skip("mcap_sample is not built (TAGFIELD_MCAP, liblz4-dev, libzstd-dev)")
@@ -97,10 +97,10 @@ def databases_and_folders_are_read_as_mcap_files(context):
     check((from_mcap / "reads.csv").read_bytes() == (folder / "reads.csv").read_bytes(), "reads.csv")
     write_database(context.folder / "run.db3", topics, messages)
     check_same(located(context, "run.db3", "from_database"), from_mcap, "run.db3")
-    # Under any name.
+    # With any file name.
     os.rename(context.folder / "run.db3", context.folder / "recording")
     check_same(located(context, "recording", "from_recording"), from_mcap, "recording")
-    # In two files, of which the second comes first by its name.
+    # In two files, of which the second is first in alphabetical order.
     bag = context.folder / "bag"
     half = len(messages) // 2
     write_database(bag / "b_0.db3", topics, messages[:half])
@@ -109,12 +109,12 @@ def databases_and_folders_are_read_as_mcap_files(context):
     check_same(located(context, "bag/", "from_folder"), from_mcap, "bag/")
     check_equal(sorted(path.name for path in bag.iterdir()), ["a_1.db3", "b_0.db3", "metadata.yaml"],
                 "what is in the folder")
-    # A file of another kind, too.
+    # A folder with an MCAP file, too.
     (context.folder / "mcap_bag").mkdir()
     os.rename(context.folder / "run.mcap", context.folder / "mcap_bag/run_0.mcap")
     write_metadata(context.folder / "mcap_bag", ["run_0.mcap"], "mcap")
     check_same(located(context, "mcap_bag", "from_mcap_bag"), from_mcap, "mcap_bag")
-    # As a recorder leaves it that was killed.
+    # As left by a killed recorder.
     (context.folder / "mcap_bag/metadata.yaml").unlink()
     check_same(located(context, "mcap_bag", "without", warnings=1), from_mcap, "without metadata.yaml")
 

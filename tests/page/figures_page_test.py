@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Pages in headless Chromium: no barriers that axe (npm) calls serious; what figures answer; print.
+"""Pages in headless Chromium: no serious accessibility violations by axe (npm); interactive figures; print.
 
     figures_page_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
 """
@@ -35,7 +35,7 @@ sweep:
 
 
 def pages_of(context):
-    """A page of each kind."""
+    """Writes and returns one page of each kind."""
     hall = context.shipped("paper_warehouse")
     context.run_well("run", hall, "--out", "run")
     context.run_well("run", hall, "--out", "noisy", "--set", "pose.source=noisy")
@@ -61,7 +61,7 @@ def open_page(one, page, width=1400, theme="light"):
 
 
 def pointed_at(one, figure, share_x, share_y):
-    """What the page says with the pointer there in a figure, by shares of its width and height."""
+    """Text of the tooltip with the pointer in a figure, at shares of its width and height."""
     left, top, width, height = one.driver.execute_script(
         "const svg = document.querySelector(`#${arguments[0]} svg`); svg.scrollIntoView({block: 'center'});"
         "const box = svg.getBoundingClientRect(); return [box.left, box.top, box.width, box.height];", figure)
@@ -94,7 +94,7 @@ def figures_say_values_and_hide_series(context):
     with browser(NO_WEBGL) as one:
         open_page(one, context.folder / "track/tracks.html")
         said = pointed_at(one, "speeds", 0.5, 0.55)
-        for _ in range(30):  # Wherever the lines are; all run at about 1 m/s.
+        for _ in range(30):  # Searches for the lines; all tags move at about 1 m/s.
             if said:
                 break
             said = pointed_at(one, "speeds", 0.5, 0.2 + 0.02 * _)
@@ -126,7 +126,7 @@ def cells_say_what_they_hold(context):
             for share_y in (0.3, 0.45, 0.6):
                 lines = pointed_at(one, "margin_0\\.90m", share_x, share_y).split("\n")
                 if len(lines) != 3 or not lines[0].startswith("margin [dB]: "):
-                    continue  # On an antenna, or beside the map.
+                    continue  # On an antenna, or outside the map.
                 heard += 1
                 x, y = (float(line.split(": ")[1].replace("−", "-")) for line in lines[1:])
                 cell = min(rows, key=lambda row: abs(float(row["x_m"]) - x) + abs(float(row["y_m"]) - y))
@@ -147,7 +147,7 @@ def tags_rows_and_marks_are_linked_and_figures_zoomed(context):
     with browser(NO_WEBGL) as one:
         open_page(one, context.folder / "run/report.html")
         ask = one.driver.execute_script
-        # A row's name shows the tag's marks in all figures, a second time not any more.
+        # A row's name highlights the tag's marks in all figures, a second activation clears them.
         cell = one.driver.find_elements("css selector", "[aria-label=Tags] tbody th.linked")
         check_equal(len(cell), 10, "rows that lead to figures")
         cell[4].send_keys("\n")
@@ -157,11 +157,11 @@ def tags_rows_and_marks_are_linked_and_figures_zoomed(context):
         check_equal(ask("return document.querySelector('tr.chosen th').textContent"), cell[4].text, "its row")
         cell[4].send_keys("\n")
         check_equal(ask("return document.querySelectorAll('.chosen').length"), 0, "chosen after a second time")
-        # A mark shows its row.
+        # A mark highlights its row.
         ask("const e = document.querySelectorAll('#fig10_errors svg rect.bar')[3], b = e.getBoundingClientRect();"
             "e.ownerSVGElement.dispatchEvent(new MouseEvent('click', {clientX: b.left + 5, clientY: b.top + 5}))")
         check_equal(ask("return document.querySelector('tr.chosen th').textContent"), "tag4", "row of the fourth bar")
-        # Zoomed, a mark is as large as before, and two are further apart.
+        # With zoom, a mark keeps its size, and two marks are further apart.
         look = ("const e = [...document.querySelectorAll('#fig09_map svg path.truth')].filter(e => !e.closest('.key'))"
                 ".map(e => e.getBoundingClientRect()); return [e[0].width, Math.hypot(e[0].x - e[1].x, e[0].y - e[1].y)]")
         size, apart = ask(look)

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Opens report.html of run folders in headless Chromium and looks whether it keeps its word.
+"""Opens report.html of run folders in headless Chromium and checks it.
 
     page_test.py [--screenshots DIR] RUN_FOLDER…
 
-Checks at desktop and phone width, light and dark: nothing on the console, no request but the page
-itself, every figure drawn and of some size, no sideways scrolling, legible text, a dark background
-in the dark. Checks that each file in figures/ is XML that stands alone. Needs Debian's packages
-chromium, chromium-driver and python3-selenium; exits 77 (skipped) where one is missing, 1 with a
-line for each failure, 0 where all is well.
+Checks at desktop and phone width, with light and dark theme: no console messages, no requests except the
+page itself, every figure is drawn, no horizontal scrolling, legible text, a dark background in the dark
+theme. Checks that each file in figures/ is self-contained XML. Needs Debian's packages chromium,
+chromium-driver and python3-selenium; the exit code is 77 (skipped) if one is missing, 1 with one line per
+failure, else 0.
 """
 
 import argparse
@@ -63,7 +63,7 @@ return {figures: visible, background: body.backgroundColor, ink: body.color,
         drawn: document.getElementById('tagfield-view')?.shadowRoot?.querySelector('canvas') != null};
 """
 
-# Whether a script that somebody got into the page would run.
+# Whether an injected script would run.
 ANOTHER_SCRIPT = """
 const script = document.createElement('script');
 script.textContent = 'window.hasRun = true';
@@ -112,7 +112,7 @@ def contrast(one, other):
 
 
 def requests_of(driver, page):
-    """Addresses that the page asked for since the last call; the browser's own tabs ask too."""
+    """URLs that the page requested since the last call, without requests of the browser's other tabs."""
     addresses = []
     for entry in driver.get_log("performance"):
         message = json.loads(entry["message"])["message"]
@@ -123,7 +123,7 @@ def requests_of(driver, page):
 
 
 def wait_until_whole(driver, page):
-    """On a busy machine the driver may come back while the page is still being parsed."""
+    """Waits for the page, as on a busy machine the driver may return while it is still being parsed."""
     for _ in range(600):
         if driver.execute_script("return document.readyState === 'complete' && location.href") == \
                 page.as_uri():
@@ -177,14 +177,14 @@ def view_faults(driver, page, theme, seen):
     for address in addresses:
         if address != page.as_uri():
             yield f"requests {address[:200]}"
-    # The run to be watched is data and a script; the others are of tables, figures, and what links them.
+    # The replay of the run has data and a script; the other scripts are for tables, figures and links.
     if seen["scripts"] not in (["", "", ""], ["application/json", "", "", "", ""]):
         yield f"holds scripts of the types {seen['scripts']}"
     if "application/json" in seen["scripts"] and not seen["drawn"]:
         yield "does not show the run"
     if driver.execute_script(ANOTHER_SCRIPT):
         yield "lets another script run than its own"
-    driver.get_log("browser")  # which says so
+    driver.get_log("browser")  # discards the message about it
     if seen["scroll"] > seen["inner"]:
         yield f"scrolls sideways: {seen['scroll']} px wide in a window of {seen['inner']} px"
     if (luminance(seen["background"]) < 0.1) != (theme == "dark"):

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""tagfield_bringup: parameters that fit the program's robot, and launch files that start what there is.
+"""tagfield_bringup: parameters agree with the program's robot, and launch files start existing things.
 
-ROS 2 is not here: its launch modules are stood in for by ones that note what they are asked for.
+Runs without ROS 2: its launch modules are replaced by mocks that record their arguments.
 """
 
 import pathlib
@@ -31,14 +31,14 @@ LAUNCH = {"launch": ["LaunchDescription"],
 
 
 class Thing:
-    """Whatever a launch file makes: its kind and what it was given."""
+    """An object that a launch file creates: its class and arguments."""
 
     def __init__(self, kind, words, options):
         self.kind, self.words, self.options = kind, words, options
 
 
 def things_in(value):
-    """All of them, however deep."""
+    """All recorded objects in a value, also nested ones."""
     if isinstance(value, Thing):
         yield value
         yield from things_in([*value.words, *value.options.values()])
@@ -50,7 +50,7 @@ def things_in(value):
 
 
 def launched(path):
-    """What a launch file describes."""
+    """The content of a launch file's description, with mock launch modules."""
     def maker(kind):
         return lambda *words, **options: Thing(kind, words, options)
 
@@ -78,7 +78,7 @@ def launch_files(context):
 
 
 def parameters(context, name):
-    """The parameters of each node in a file."""
+    """The parameters in a file, by node."""
     if yaml is None:
         raise Skip("python3-yaml is not there")
     nodes = yaml.safe_load((bringup(context) / "params" / name).read_text(encoding="utf-8"))
@@ -89,7 +89,7 @@ def parameters(context, name):
 
 
 def number_in(context, header, name):
-    """The default that a header gives a number."""
+    """The default value of a member in a header."""
     text = (context.source / "tagfield" / header).read_text(encoding="utf-8")
     return float(re.search(rf"double {name} = ([-\d.]+);", text)[1])
 
@@ -138,7 +138,7 @@ def launch_files_name_files_that_are_installed(context):
 
 @case
 def launch_files_hand_on_what_has_no_default(context):
-    """ROS 2 refuses an included file whose arguments without default are not given to it by name."""
+    """ROS 2 rejects an included launch file if its arguments without default are not passed explicitly."""
     files = {path.name: launched(path) for path in launch_files(context)}
     needed = {name: {thing.words[0] for thing in things if thing.kind == "DeclareLaunchArgument"
                      and "default_value" not in thing.options} for name, things in files.items()}
@@ -230,7 +230,7 @@ def limits_are_the_robots(context):
              for name in ("least_range_m", "most_range_m")}
     follow, behave = nav2["controller_server"]["FollowPath"], nav2["behavior_server"]
     check_equal(follow["desired_linear_vel"], robot["speed_m_s"], "speed")
-    follower = scenario(context, "paper_warehouse")["robots"][0]  # One that navigates plans its own.
+    follower = scenario(context, "paper_warehouse")["robots"][0]  # Autonomous robots plan their own paths.
     check_equal(follow["lookahead_dist"], follower["look_ahead_m"], "look-ahead")
     check(follow["desired_linear_vel"] <= limits["speed_m_s"], "a speed that the robot can't have")
     for turn in (follow["rotate_to_heading_angular_vel"], behave["max_rotational_vel"]):

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A run played into ROS 2, heard by another DDS (Fast DDS, ros2_listener) in a network of its own.
+"""A run published to ROS 2, received by another DDS (Fast DDS, ros2_listener) in a network namespace.
 
-What was heard is decoded here, by the tables of CDR alone.
+Messages are decoded by this test, independently, by the rules of CDR.
 """
 
 import json
@@ -29,7 +29,7 @@ DOMAIN = 7
 
 
 class Cdr:
-    """Takes values from a message's bytes."""
+    """Decodes values from the bytes of a message."""
 
     def __init__(self, text):
         data = bytes.fromhex(text)
@@ -71,7 +71,7 @@ def tag_reads(cdr):
 
 
 def in_own_network(context, script):
-    """Runs a shell script in a network of its own, with a loopback interface alone."""
+    """Runs a shell script in a separate network namespace with only a loopback interface."""
     set_up = ("ip link set lo up && ip link set lo multicast on && "
               "ip route add 224.0.0.0/4 dev lo && ")
     unshare = ["unshare", "--net"] if os.geteuid() == 0 else ["unshare", "--net", "--map-root-user"]
@@ -92,7 +92,7 @@ def listener(context):
 
 
 def heard(context, topics, run, before_s=1.0, patience_s=4, domain=DOMAIN, variables=""):
-    """What a listener hears of a run that begins so long after it (before it, where negative)."""
+    """Output of a listener to a run that starts `before_s` after it (before it, if negative)."""
     listen = f"{listener(context)} {domain} {patience_s} {' '.join(topics)} > heard.txt"
     play = f"{variables} {context.tagfield} run {run} --ros2 --domain {DOMAIN} --no-page --out out > said.txt 2>&1"
     if before_s > 0:
@@ -191,7 +191,7 @@ def listeners_without_multicast_are_found_on_this_machine(context):
                       domain=f"{DOMAIN}:local", variables=variables)
         got = [read for cdr in messages(lines, "rt/rfid/reads") for read in tag_reads(cdr)]
         told = len(read_csv(context.folder / "out/reads.csv"))
-        # Where only the listener asks on this machine, it is heard when it does so next.
+        # If only the listener searches on this machine, it is discovered at its next announcement.
         check(len(got) == told if variables else 0 < len(got) <= told,
               f"{len(got)} of {told} reads with '{variables}'")
 
@@ -200,7 +200,7 @@ def listeners_without_multicast_are_found_on_this_machine(context):
 def on_this_machine_alone_nothing_goes_to_the_network(context):
     sent = {}
     for name, variables in (("subnet", ""), ("local", "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST")):
-        # A network that nobody is in: what is sent there is counted.
+        # A network without other members, to count packets sent to it.
         done = in_own_network(
             context, "ip route del 224.0.0.0/4 dev lo && ip link add far type veth peer name near && "
             "ip link set near up && ip link set far addrgenmode none multicast on up && "
@@ -299,7 +299,7 @@ def a_robot_is_driven_from_another_dds(context):
     scenario = context.write("driven.yaml", ROBOT.replace("WORLD", str(world)))
     topics = " ".join([ODOM, SCAN, TF, CLOCK])
     listen = f"{listener(context)} {DOMAIN} 5 {topics} > heard.txt"
-    # Driven from 3 s on for 2 s by one node, then for 2 s by another whose commands have stamps.
+    # Driven from 3 s of the run on for 2 s by one node, then for 2 s by another with stamped commands.
     driver = f"{context.build / 'bin/ros2_driver'} {DOMAIN} 2 0.5 0"
     drive = f"sleep 4; {driver}; sleep 1; {driver} stamped"
     done = in_own_network(
@@ -315,12 +315,12 @@ def a_robot_is_driven_from_another_dds(context):
     check_equal(told[0][1:4], (0.0, 0.0, 0.0), "where it starts")
     check(1.2 < told[-1][1] < 2.6, f"it drove {told[-1][1]} m, expected about 4 s at 0.5 m/s")
     check(abs(told[-1][2]) < 0.1, f"it strayed by {told[-1][2]} m")
-    # The wheels' noise over 20 ms at 0.5 m/s is 0.05 m/s (navigation.odometry's alpha3): 6 of it.
+    # Wheel noise over 20 ms at 0.5 m/s is 0.05 m/s (navigation.odometry, alpha3): a bound of six sigma.
     check(0.4 < max(row[3] for row in told) < 0.8, "greatest speed")
     check_equal(told[-1][3], 0.0, "speed once nobody drives any more")
     starts = sum(before[3] == 0.0 != row[3] for before, row in zip(told, told[1:]))
     check_equal(starts, 2, "times that it drove off: commands without stamps, and with")
-    # All that the wheels told of the speed is the distance; and they say how sure they are of it.
+    # The integral of the odometry's speed is the distance; its variance is stated.
     check(abs(sum(row[3] * (row[0] - before[0]) for before, row in zip(told, told[1:])) - told[-1][1]) < 0.02,
           "the speeds do not add up to the distance")
     check_equal(told[0][4], 0.0, "variance of x where it starts")
@@ -330,7 +330,7 @@ def a_robot_is_driven_from_another_dds(context):
     check(abs(float(truth[-1]["x_m"]) - told[-1][1]) < 0.1, "the odometry is not near the truth")
     scans = messages(lines, "rt/scan")
     check(len(scans) > 100, f"{len(scans)} scans")
-    # Few scans may have a time that the clock has not told: it is best effort.
+    # A few scans may have a time missing from the clock topic, which is best effort.
     clock = {round(cdr.stamp(), 6) for cdr in messages(lines, "rt/clock")}
     stamps = {round(cdr.header()[0], 6) for cdr in messages(lines, "rt/scan")}
     check(len(stamps - clock) < 0.1 * len(stamps), f"{len(stamps - clock)} scans of {len(stamps)} before their time")
@@ -343,7 +343,7 @@ def a_robot_is_driven_from_another_dds(context):
     check(any(limits[5] <= value <= limits[6] for value in ranges), "no beam met anything")
     told_frames = {frame[:2] for cdr in messages(lines, "rt/tf") for frame in frames(cdr)}
     check_equal(told_frames, {("odom", "base_link"), ("base_link", "mast")}, "frames")
-    # In a file's last part topics stand uncompressed.
+    # Topics are uncompressed in the file's summary section.
     recorded = (context.folder / "run.mcap").read_bytes()
     for topic in (b"/odom", b"/scan", b"/tf", b"/tf_static", b"/rfid/reads"):
         check_in(struct.pack("<I", len(topic)) + topic, recorded, "the recording")
@@ -355,7 +355,7 @@ def a_robot_is_driven_in_one_run_and_believes_its_wheels(context):
         result = context.run("run", context.shipped("two_antennas"), "--ros2", "--drive", "p3at", *option)
         check_equal(result.code, 2, f"exit code with {option[0]}")
         check_in(option[0], result.err, "complaint")
-    # Whatever the scenario says of poses: here the robot would map the hall by itself.
+    # Regardless of the scenario's pose source: in this one the robot would map the hall autonomously.
     done = in_own_network(
         context, f"{context.tagfield} run {context.shipped('paper_warehouse_slam')} --ros2 --speed 10 "
         "--drive p3at --set duration_s=1 --no-page --out out")

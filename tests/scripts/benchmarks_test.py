@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What scripts/bench makes of benchmarks: growth laws, the comparison with a release, and the page.
+"""Results of scripts/bench: growth laws, the comparison with the last release, and the page.
 
     benchmarks_test.py SOURCE_DIR BENCHMARKS_DIR
 """
@@ -34,7 +34,7 @@ def laws_of_exact_growth():
 def curves_take_what_was_measured():
     figures = {f"TagsInRange/{10 ** k}": 0.1 * 10 ** k for k in range(1, 5)}
     figures.update({f"orders/aws:0/{order}": 6.0 ** order for order in range(4)})
-    figures.update({"Antennas/1": 1.0, "Antennas/4": 4.0})  # Too few for a law.
+    figures.update({"Antennas/1": 1.0, "Antennas/4": 4.0})  # Too few points for a law.
     found = growth.curves(figures)
     check([panel.title for panel, _ in found] == ["Reads, paper's model", "Paths by order"], f"{found}")
     check(found[0][1][0][2] == "∝ x^1.00, at the end x^1.00", found[0][1][0][2])

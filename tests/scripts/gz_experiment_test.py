@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""scripts/gz-experiment finds a gz-sim in a folder of its own by the system's `ign` or `gz`, which knows it by the
-commands in that folder alone.
+"""scripts/gz-experiment finds a gz-sim in a separate prefix with the system's `ign` or `gz`, which knows
+it only by the commands in that prefix.
 
     gz_experiment_test.py SOURCE_DIR
 """
@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-# As the real ones: a command is one of which a folder in the variable has a file.
+# Like the real ones: a command exists if a folder in the variable has its file.
 COMMAND = """#!/bin/sh
 IFS=:
 for folder in ${VARIABLE}; do

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""scripts/in-gazebo: commands run where Gazebo 11 is as if they ran here, and leave no mount behind.
+"""scripts/in-gazebo: commands run in the root of Gazebo 11 as if they ran here, and leave no mounts behind.
 
     in_gazebo_test.py SOURCE_DIR
 
-Skipped (77) where there is no Gazebo 11.
+Skipped (77) if there is no Gazebo 11.
 """
 
 import os
@@ -55,7 +55,7 @@ def gives_half_of_the_processors_to_gzserver(room, folder):
             server.wait(60)
     had = sorted(os.sched_getaffinity(0))
     assert given == set(had[:(len(had) + 1) // 2]), (given, had)
-    assert room.run("nproc").stdout.strip() == str(len(had))  # of other commands
+    assert room.run("nproc").stdout.strip() == str(len(had))  # other commands are not affected
 
 
 def ends_with_the_commands_code(room, _):
@@ -112,7 +112,7 @@ def leaves_no_mount(room, _):
 
 def says_what_is_missing(room, folder):
     if room.run("true", env={**os.environ, "TAGFIELD_GAZEBO_ROOT": str(folder)}).returncode == 0:
-        return  # Gazebo 11 is native: no root is looked for
+        return  # Gazebo 11 is installed natively, without a root
     done = room.run("true", env={**os.environ, "TAGFIELD_GAZEBO_ROOT": str(folder)})
     assert done.returncode == SKIP
     assert "scripts/gazebo-root" in done.stderr and done.stderr.count("\n") == 1, done.stderr

@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What changed in a checkout since a commit."""
+"""Changes in a source folder since a commit."""
 
 import subprocess
 
 
 def git(top, *words):
-    """What it prints, or None where it fails."""
+    """Output of git, or None if it fails."""
     done = subprocess.run(["git", "-c", "safe.directory=*", "-C", top, *words], stdout=subprocess.PIPE,
                           stderr=subprocess.DEVNULL, text=True, check=False)
     return done.stdout if done.returncode == 0 else None
 
 
 def changed_since(commit, top, rules):
-    """Names of files that differ from those of the commit, or are not in it; None where that can't be
-    told, or one of the rules by which they are looked at changed as well."""
+    """Names of files that differ from the commit or are not in it; None if that cannot be determined, or
+    if a file in `rules` changed as well."""
     changed = git(top, "diff", "--name-only", commit)
     added = git(top, "ls-files", "--others", "--exclude-standard")
     if changed is None or added is None:

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The image that packaging/Containerfile makes gets all of our packages that its packages depend on.
+"""The image built by packaging/Containerfile contains all project packages that its packages depend on.
 
     container_test.py SOURCE_DIR
 
-apt-get would look for one that is left out in Debian, and not find it.
+Otherwise apt-get would search for a missing one in Debian, and fail.
 """
 
 import pathlib
@@ -13,7 +13,7 @@ import sys
 
 
 def packages_in(text):
-    """Our packages, each with those of ours that it depends on, from TagfieldPackages.cmake."""
+    """The project's packages and their dependencies among each other, from TagfieldPackages.cmake."""
     depends = {}
     for call in re.split(r"\btagfield_package\(", text)[1:]:
         name = call.split()[1]
@@ -36,7 +36,7 @@ def main():
     left_out = missing(cmake, container)
     if left_out:
         sys.exit(f"packaging/Containerfile: not installed, or no packages of ours: {', '.join(sorted(left_out))}")
-    # It would notice.
+    # Checks that a missing package is detected.
     if missing(cmake, container.replace("/tmp/packages/tagfield-common_*.deb", "")) != {"tagfield-common"}:
         sys.exit("container_test.py: a package that is left out goes unnoticed")
     print("the image gets what its packages depend on")

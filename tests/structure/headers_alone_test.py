@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A program of one line that includes an installed header compiles, without a warning.
+"""Each installed header compiles on its own, without warnings.
 
     headers_alone_test.py SOURCE_DIR [--since FILE]
 
-With --since only headers that changed since the commit that FILE names, that include, by themselves or
-through others, one that did, or whose room's CMakeLists.txt did: scripts/lint looked at all then. All where
-this test changed, too, or where there is no such commit.
+With --since, checks only headers that changed since the commit named in FILE (when scripts/lint checked
+all), that include a changed header directly or indirectly, or whose room's CMakeLists.txt changed. Checks
+all if this test changed, too, or if there is no such commit.
 """
 
 import argparse
@@ -32,19 +32,19 @@ PLANTED = "inline std::string planted() { return {}; }\n"
 
 @functools.lru_cache(maxsize=None)
 def headers_behind(name, top):
-    """The header itself and all that it includes, by itself or through others."""
+    """The header itself and all headers that it includes, directly or indirectly."""
     path = top / name
     others = INCLUDE.findall(path.read_text(encoding="utf-8")) if path.is_file() else []
     return frozenset({name}).union(*(headers_behind(other, top) for other in others))
 
 
 def room_list_of(header):
-    """The file that says that it is installed."""
+    """The CMakeLists.txt that lists the header as installed."""
     return "/".join(header.split("/")[:2]) + "/CMakeLists.txt"
 
 
 def looked_at(headers, since, top):
-    """Those that are to be looked at, and why."""
+    """The headers to check, and the reason in words."""
     if since is None:
         return headers, "all"
     commit = since.read_text(encoding="utf-8").split()[0]
@@ -56,7 +56,7 @@ def looked_at(headers, since, top):
 
 
 class Compiler:
-    """What takes the most time of all, Eigen, it reads once, for those headers that include it anyway."""
+    """A compiler with a precompiled header of Eigen, whose parsing takes most of the time."""
 
     def __init__(self, top, folder):
         self.top = top
@@ -66,7 +66,7 @@ class Compiler:
         subprocess.run([*COMPILE, "-x", "c++-header", self.eigen, "-o", f"{self.eigen}.gch"], check=True)
 
     def said_of(self, header, root=None):
-        """Of a program of one line, or "" where it is well."""
+        """Errors and warnings for a program that includes only this header, or ""."""
         root = root or self.top
         program = self.folder / (header.replace("/", "_") + ".cc")
         program.write_text(f'#include "{header}"\n', encoding="utf-8")

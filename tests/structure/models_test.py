@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The models for Gazebo: what must agree does.
+"""Consistency of the models for Gazebo.
 
     models_test.py SOURCE_DIR
 
-models/p3at_rfid is models/p3at, part by part, but for the mast, the antenna and its lift; the mast's
-mass is in its base link. Each model has a model.config that names an SDF file, and each plugin that
-a model loads is one that CMake builds. What stands side by side in a model or world has names of its
-own, as SDFormat wants it and `gz sdf --check` checks it. Then the test looks whether it would notice.
+models/p3at_rfid equals models/p3at, part by part, except for the mast, the antenna and its lift; the
+mast's mass is included in its base link. Each model has a model.config that names an SDF file, and each
+plugin that a model loads is built by CMake. Sibling elements in a model or world have unique names, as
+SDFormat requires and `gz sdf --check` checks. Then checks that violations would be detected.
 """
 
 import pathlib
@@ -18,7 +18,7 @@ import tempfile
 import xml.etree.ElementTree
 
 PLAIN, MOUNTED = "p3at", "p3at_rfid"
-# What the second has and the first has not: element and name, by the element that it is in.
+# Parts of the second robot that the first lacks: element and name, by parent element.
 ADDED = {
     "model": {("link", "antenna"), ("joint", "lift_joint"), ("plugin", "lift")},
     "base_link": {("collision", "mast"), ("visual", "mast_foot"), ("visual", "mast_visual"),
@@ -26,7 +26,7 @@ ADDED = {
 }
 
 
-# --- One robot and the other ----------------------------------------------------------------------
+# --- Comparison of the two robots -----------------------------------------------------------------
 
 def key_of(element):
     return element.tag, element.get("name")
@@ -45,7 +45,7 @@ def without(element, added):
 
 
 def difference(first, second, place):
-    """Where two elements differ, or None."""
+    """The first difference between two elements, or None."""
     if first.tag != second.tag or first.attrib != second.attrib:
         return f"{place}: {key_of(first)} against {key_of(second)}"
     here = f"{place}/{first.get('name') or first.tag}"
@@ -58,7 +58,7 @@ def difference(first, second, place):
 
 
 def parts(model):
-    """What the two share: base_link's parts one by one, then the others."""
+    """The common parts of the two robots: base_link's parts one by one, then the others."""
     base = model.find("link[@name='base_link']")
     inner = [child for child in without(base, ADDED["base_link"]) if child.tag != "inertial"]
     others = [child for child in without(model, ADDED["model"]) if child is not base]
@@ -66,7 +66,7 @@ def parts(model):
 
 
 def lacking(model):
-    """What was to be added and is not there."""
+    """Expected additional parts that are missing."""
     base = model.find("link[@name='base_link']")
     for element, name in ((model, "model"), (base, "base_link")):
         for key in sorted(ADDED[name] - {key_of(child) for child in element}):
@@ -90,7 +90,7 @@ def part_faults(plain, mounted):
 # --- The mast's mass ------------------------------------------------------------------------------
 
 def body_of(model):
-    """Mass, centre and the inertia about it (xx, yy, zz, xz) of the base link."""
+    """Mass, centre of mass and inertia about it (xx, yy, zz, xz) of the base link."""
     inertial = model.find("link[@name='base_link']/inertial")
     centre = [float(word) for word in inertial.findtext("pose").split()[:3]]
     inertia = [float(inertial.findtext(f"inertia/{name}")) for name in ("ixx", "iyy", "izz", "ixz")]
@@ -98,7 +98,7 @@ def body_of(model):
 
 
 def about(mass, centre, inertia, point):
-    """The inertia about another point, by Steiner's theorem."""
+    """The inertia about another point, by the parallel axis theorem."""
     x, y, z = (c - p for c, p in zip(centre, point))
     xx, yy, zz, xz = inertia
     return [xx + mass * (y * y + z * z), yy + mass * (x * x + z * z),
@@ -106,7 +106,7 @@ def about(mass, centre, inertia, point):
 
 
 def mast_of(model, mass):
-    """The mast as an even box, as it is drawn; its collision is a little wider."""
+    """The mast as a homogeneous box of its visual; its collision is slightly wider."""
     visual = model.find("link[@name='base_link']/visual[@name='mast_visual']")
     centre = [float(word) for word in visual.findtext("pose").split()[:3]]
     a, b, c = (float(word) for word in visual.findtext("geometry/box/size").split())
@@ -133,7 +133,7 @@ def mass_faults(plain, mounted):
 # --- Files and plugins ----------------------------------------------------------------------------
 
 def built_plugins(root):
-    """File names of the shared libraries that adapters/gazebo_classic builds."""
+    """File names of the shared libraries built by adapters/gazebo_classic."""
     folder = root / "adapters/gazebo_classic"
     text = "\n".join(path.read_text(encoding="utf-8")
                      for path in (folder / "CMakeLists.txt", folder / "robot.cmake"))
@@ -169,7 +169,7 @@ def file_faults(root):
 
 
 def name_faults(root):
-    """Elements of one name side by side; that of a plugin says what it is."""
+    """Sibling elements with the same name, except for plugins, whose names are their kinds."""
     for folder in ("models", "worlds", "templates", "examples"):
         for file in sorted((root / folder).rglob("*.sdf")):
             for element in xml.etree.ElementTree.parse(file).iter():
@@ -185,9 +185,9 @@ def faults(root):
             *name_faults(root)]
 
 
-# --- Does it notice? ------------------------------------------------------------------------------
+# --- Detection of planted faults ------------------------------------------------------------------
 
-PLANTED = (  # a file, what is replaced in it by what, what must be said of it
+PLANTED = (  # a file, the old text, the new text, part of the expected message
     ("p3at/model.sdf", "<mass>1</mass>", "<mass>2</mass>", "front_left_wheel"),
     ("p3at_rfid/model.sdf", "<samples>720</samples>", "<samples>360</samples>", "samples"),
     ("p3at_rfid/model.sdf", "<track>0.48</track>", "<track>0.40</track>", "track"),
@@ -203,7 +203,7 @@ PLANTED = (  # a file, what is replaced in it by what, what must be said of it
 
 
 def blind_spots(root):
-    """What this test would overlook."""
+    """Planted faults that this test does not detect."""
     for number, (name, old, new, says) in enumerate(PLANTED):
         with tempfile.TemporaryDirectory(prefix="models_test-") as folder:
             copy = pathlib.Path(folder)

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The headers that are installed: they need no other, docs/api.md lists them, and examples do with them.
+"""Installed headers include only installed headers, docs/api.md lists them, and examples use no others.
 
     public_headers_test.py SOURCE_DIR
 
-Checks the source tree, then that it would notice: each rule is broken once in a small tree of its own.
+Checks the source tree, then that violations are detected: each rule is broken once in a small tree.
 """
 
 import pathlib
@@ -18,7 +18,7 @@ ROW = re.compile(r"^\| `(tagfield/[\w/]+\.h)` \| +\S", re.MULTILINE)
 
 
 def public_headers(root):
-    """By path from the top, as the rooms' CMakeLists.txt have them."""
+    """Paths of the installed headers, as listed in the rooms' CMakeLists.txt."""
     found = []
     for path in sorted(root.glob("tagfield/*/CMakeLists.txt")):
         for names in LIST.findall(path.read_text(encoding="utf-8")):
@@ -57,7 +57,7 @@ def example_faults(root, public):
 
 
 def list_faults(root, public):
-    """Each stands in docs/api.md once, with what it is good for."""
+    """Violations of the rule that docs/api.md lists each header once, with its purpose."""
     listed = ROW.findall((root / "docs/api.md").read_text(encoding="utf-8"))
     for name in sorted(set(public) - set(listed)):
         yield f"docs/api.md: {name} is missing"
@@ -73,7 +73,7 @@ def faults(root):
             for fault in rule(root, public)]
 
 
-# --- Does it notice? ------------------------------------------------------------------------------
+# --- Detection of planted faults ------------------------------------------------------------------
 
 GOOD = {
     "tagfield/base/CMakeLists.txt": "tagfield_room(base\n  SOURCES a.cc\n  PUBLIC_HEADERS a.h\n"
@@ -88,7 +88,7 @@ GOOD = {
     "docs/api.md": "| `tagfield/base/a.h` | errors |\n| `tagfield/base/part/b.h` | parts |\n"
                    "| `tagfield/stream/c.h` | streams |\n",
 }
-PLANTED = (  # a file, its content, what must be said of it
+PLANTED = (  # a file, its content, part of the expected message
     ("tagfield/stream/c.h", '#include "tagfield/base/shared.h"\n', "includes tagfield/base/shared.h"),
     ("tagfield/stream/CMakeLists.txt", "tagfield_public_headers(stream c.h e.h)\n", "not there"),
     ("tagfield/base/CMakeLists.txt", "tagfield_room(base PUBLIC_HEADERS a.h part/b.h internal/d.h)\n",
@@ -112,7 +112,7 @@ def faults_of_tree(files):
 
 
 def blind_spots():
-    """What this test would overlook."""
+    """Planted faults that this test does not detect."""
     for fault in faults_of_tree(GOOD):
         yield f"complains of a good tree: {fault}"
     for name, text, says in PLANTED:

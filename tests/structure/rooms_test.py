@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The order of the house: which room may include which, and what stays out of the core.
+"""Layering of the sources: which room (component) may include which, and what is banned from the core.
 
     rooms_test.py SOURCE_DIR
 
-Checks every .h and .cc of the source tree, then that it would notice: each rule is broken once in a
-small tree of its own, where that complaint must come and no other file be blamed.
+Checks every .h and .cc of the source tree, then that violations are detected: each rule is broken once in
+a small tree, which must give that error and none for other files.
 """
 
 import pathlib
@@ -13,12 +13,12 @@ import re
 import sys
 import tempfile
 
-# docs/architecture.md has the same, in the same order: a room includes only itself and rooms above it.
+# In the same order as in docs/architecture.md: a room includes only itself and rooms listed before it.
 ROOMS = ["base", "poses", "stream", "epc", "files", "motion", "world", "sdf", "map", "laser",
          "propagation", "channel", "gen2", "reader", "settings", "field", "fit", "localization",
          "tracking", "calibration", "report", "navigation", "scenario", "events", "simulator",
          "planning", "layout", "experiment", "live"]
-# What a room must not include although it stands above.
+# Rooms that a room must not include although they are listed before it.
 FORBIDDEN = {"localization": {"world", "sdf", "field"}, "tracking": {"world", "sdf", "field"},
              "calibration": {"world", "sdf", "field", "tracking"}, "field": {"files"},
              "report": {"reader", "field"}, "navigation": {"reader", "field", "localization"},
@@ -35,7 +35,7 @@ MCAP = "adapters/mcap/"
 GZ = "adapters/gz/"
 WORLDS = "adapters/gazebo_world/"
 COMMON = "adapters/gazebo_common/"
-# The one source of the plugin for gz-sim that joins it and ROS 2.
+# The only source of the plugin for gz-sim that connects gz-sim and ROS 2.
 GZ_JOINT = "adapters/gz/rfid_system.cc"
 ROSBAG2 = "adapters/rosbag2/"
 ARCHIVE = "adapters/archive/"
@@ -43,14 +43,14 @@ MQTT = "adapters/mqtt/"
 EPCIS = "adapters/epcis/"
 MPI = "adapters/mpi/"
 SQLITE = "adapters/sqlite/"
-# What containers of bytes may use.
+# What adapters for container formats may include.
 UNDER_MCAP = (MCAP, "tagfield/base/", "tagfield/files/")
 UNDER_ARCHIVE = (ARCHIVE, "tagfield/base/")
 UNDER_SQLITE = (SQLITE, "tagfield/base/", "tagfield/files/")
 UNDER_ROSBAG2 = (ROSBAG2, MCAP, "tagfield/base/", "tagfield/scenario/yaml_map.h")
-# The thin mains that join Gazebo and ROS.
+# The thin plugin entry points that connect Gazebo and ROS.
 JOINTS = "adapters/gazebo_classic/plugins/"
-# Nothing in a room prints, and few look at a clock.
+# No room prints, and few read a clock.
 QUIET = {
     r"\bstd::c(out|err|log)\b": "prints",
     r"(?<![\w.])(f|v|vf)?printf\s*\(|\b(fmt|std)::print(ln)?\b|\bputs\s*\(": "prints",
@@ -60,13 +60,13 @@ QUIET = {
         "draws random numbers by itself",
     r"<sys/socket\.h>|<netinet/": "opens sockets",
 }
-# field_worker.cc says what CPU time its thread took.
+# field_worker.cc reports the CPU time of its thread.
 QUIET_EXCEPT = {("tagfield/field/field_worker.cc", "looks at a clock")}
-# Who makes the truth known, or judges by it.
+# Rooms that publish the ground truth or evaluate by it.
 TRUTH_ROOMS = {"stream", "files", "field", "report", "simulator", "planning", "layout", "experiment"}
-# The robot's filter draws from a generator that a RandomStream has seeded, one a scan.
+# The robot's particle filter draws from a generator that is seeded by a RandomStream for each scan.
 ALLOWED = {("navigation", "std::mt19937")}
-# In step with real time, to say how long a method took, or to stop an exact search in time.
+# For real-time pacing, to report the duration of a method, or for the time limit of an exact search.
 CLOCK_ROOMS = {"simulator", "layout", "experiment", "live"}
 
 NAMESPACE = re.compile(r"^namespace ([\w:]+) \{$", re.MULTILINE)
@@ -82,7 +82,7 @@ def without_comments(text):
 
 
 def room_of(path):
-    """The room of a core file, or the top folder of another."""
+    """The room of a core file, or the top folder of any other file."""
     parts = path.split("/")
     return parts[1] if parts[0] == "tagfield" and len(parts) > 2 else parts[0]
 
@@ -96,7 +96,7 @@ def line_at(text, offset):
 
 
 def adapter_fault(path, header):
-    """What is wrong about an adapter including `header`, its own or a stranger's, or None."""
+    """Why an adapter must not include `header`, of the project or a third party, or None."""
     if path.startswith(ROS1) and header.startswith((CLASSIC, *GAZEBO)):
         return "adapters/ros1/ knows no Gazebo"
     if path.startswith(ROS2) and header.startswith((CLASSIC, ROS1, *GAZEBO)):
@@ -129,7 +129,7 @@ def adapter_fault(path, header):
 
 
 def order_fault(path, header):
-    """What is wrong about `path` including the project's own `header`, or None."""
+    """Why `path` must not include the project's `header`, or None."""
     if not path.startswith("tagfield/"):
         folder, other = path.split("/")[0], header.split("/")[0]
         if header.startswith("tagfield/experiment/") and folder == "adapters":
@@ -137,7 +137,7 @@ def order_fault(path, header):
         if other in ("tagfield", folder) or (folder == "apps" and other == "adapters"):
             return None
         if folder == "python" and other == "apps":
-            return None  # What users ask for and are told, in the command's words.
+            return None  # For the same arguments and messages as the command.
         return f"{folder}/ must not include it"
     if not header.startswith("tagfield/"):
         return "a room must not include it"
@@ -194,7 +194,7 @@ def word_faults(path, text):
                 yield f"{path}:{line_at(bare, match.start())}: a room {what}: {match.group()}"
 
 
-# Of a path alone, they throw where the system can't tell.
+# With only a path as argument, these functions throw on errors of the system.
 THROWS = re.compile(r"\b(?:fs|std::filesystem)::(?:exists|is_regular_file|is_directory)"
                     r"\((?!status\)|fs::symlink_status\()(?:[^(),]|\([^()]*\))*\)")
 
@@ -220,19 +220,19 @@ def header_faults(path, text):
 
 
 def types_of(path, text):
-    """Types that a header defines for all who include it, with their namespace: what -> where."""
+    """Types that a header defines for its includers: (name with namespace, file and line)."""
     if not path.endswith(".h"):
         return
     space = NAMESPACE.search(text)
     for match in TYPE.finditer(text):
         name = match.group(1) or match.group(2)
         if is_test(path) and match.group(2):
-            continue  # a short name for a few tests
+            continue  # an alias in a test's header
         yield f"{space.group(1)}::{name}" if space else name, f"{path}:{line_at(text, match.start())}"
 
 
 def repeated_types(files):
-    """Two types of one name are one to the linker, and to whoever reads of them."""
+    """Types with the same name, which violate the one-definition rule and confuse readers."""
     seen = {}
     for path, text in files:
         for name, place in types_of(path, text):
@@ -242,7 +242,7 @@ def repeated_types(files):
 
 
 def sources(root):
-    """Every .h and .cc that belongs to the project, by path from its top."""
+    """Every .h and .cc of the project: (path from the top, text)."""
     for folder in [*FOLDERS, "tests"]:
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in (".h", ".cc") and path.is_file():
@@ -250,7 +250,7 @@ def sources(root):
 
 
 def table_faults(text):
-    """What is wrong about the rooms' table of docs/architecture.md."""
+    """Faults of the table of rooms in docs/architecture.md."""
     rows = re.findall(r"^\| `tagfield/(\w+)/` \| (.*) \|$", text, re.MULTILINE)
     if [room for room, _ in rows] != ROOMS:
         yield f"docs/architecture.md: its rooms are not, in this order, {', '.join(ROOMS)}"
@@ -260,7 +260,7 @@ def table_faults(text):
 
 
 def link_faults(path, text):
-    """Rooms that a room's CMake target links although they stand below it."""
+    """Rooms that a room's CMake target links although they are listed after it."""
     room = room_of(path)
     for other in re.findall(r"tagfield::(\w+)", without_tests(text)):
         if other in ROOMS and ROOMS.index(other) > ROOMS.index(room):
@@ -268,7 +268,7 @@ def link_faults(path, text):
 
 
 def without_tests(cmake):
-    """What a room's CMakeLists.txt says of the room itself."""
+    """A room's CMakeLists.txt without its tests."""
     return re.sub(r"^if\(TAGFIELD_TESTS\)$.*?^endif\(\)$", "", cmake, flags=re.MULTILINE | re.DOTALL)
 
 
@@ -291,7 +291,7 @@ def faults(root):
     return found
 
 
-# --- Does it notice? ------------------------------------------------------------------------------
+# --- Detection of planted faults ------------------------------------------------------------------
 
 GOOD = {
     "tagfield/base/error.h": "/// @file\n/// Errors.\n#pragma once\n",
@@ -323,7 +323,7 @@ GOOD = {
     "adapters/gazebo_classic/plugins/a.cc": '#include "adapters/ros1/link.h"\n'
                                             '#include "adapters/gazebo_classic/field.h"\n',
 }
-PLANTED = (  # a file, its content, what must be said of it
+PLANTED = (  # a file, its content, part of the expected message
     ("tagfield/base/a.cc", '#include "tagfield/world/scene.h"\n', "world/ is below base/"),
     ("tagfield/channel/a.cc", '#include "tagfield/reader/antenna.h"\n', "reader/ is below channel/"),
     ("tagfield/report/a.cc", '#include "tagfield/simulator/run.h"\n', "simulator/ is below report/"),
@@ -400,7 +400,7 @@ def write_tree(root, files):
 
 
 def blind_spots():
-    """What this test would overlook."""
+    """Planted faults that this test does not detect."""
     with tempfile.TemporaryDirectory(prefix="rooms_test-") as folder:
         root = pathlib.Path(folder) / "good"
         write_tree(root, GOOD)

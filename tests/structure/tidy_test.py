@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""clang-tidy has nothing to say of any source that is built, tests excepted.
+"""clang-tidy has no findings in the sources that are built, except for tests.
 
     tidy_test.py SOURCE_DIR BUILD_DIR [--part N/OF] [--since FILE]
 
-With --since only what changed since the commit that FILE names: scripts/lint looked at all then. That is
-every source that changed, and of headers that changed a source each that includes it. All where .clang-tidy
-changed, too, or where there is no such commit, as in a shallow clone.
+With --since, checks only changes since the commit named in FILE (when scripts/lint checked all): every
+changed source, and for each changed header one source that includes it. Checks all if .clang-tidy changed,
+too, or if there is no such commit, as in a shallow clone.
 
-Most of its time goes into headers that many sources include. So it looks at several sources at a time,
-included one after the other in one file; where those don't go together, at each by itself.
+Most of the time is spent in headers that many sources include. Therefore several sources are checked at
+once, included one after another in one file; if these do not compile together, they are checked separately.
 """
 
 import argparse
@@ -31,12 +31,12 @@ from changes import changed_since  # noqa: E402
 
 RULES = {".clang-tidy", "tests/structure/tidy_test.py", "tests/structure/changes.py"}
 SKIPPED = 77
-MOST_SOURCES = 48  # in a unit; more take more than a gigabyte of memory
+MOST_SOURCES = 48  # maximum per unit; more need over a gigabyte of memory
 PLANTED = "int f(int a) { int b; if (a) b = a; return b; }\n"
 COMPLAINT = "planted.cc:1:20: error: variable 'b' is not initialized"
-# Defines what other sources define, in builds without them.
+# Stubs that define the same names as other sources, for builds without those.
 STAND_INS = ("adapters/ros1/bag_refusal.cc",)
-# Templates that nobody uses are not read, which are most of those in libraries' headers.
+# Skips the parsing of unused templates, which are most of those in library headers.
 READ_LESS = "-fdelayed-template-parsing"
 FAILS_TO_COMPILE = "[clang-diagnostic-error]"
 DEFINITION = re.compile(r"(?:struct|class|union|enum class|enum) (\w+)|.*?([\w:]+)\s*[({=;\[]")
@@ -48,12 +48,12 @@ TYPE = re.compile(r"^(?:struct|class|union|enum class|enum|using) (\w+)", re.MUL
 
 @dataclasses.dataclass
 class Unit:
-    """Sources that are looked at together."""
+    """Sources that are checked together."""
 
-    flags: list  # all that any of them is compiled with
+    flags: list  # union of their compiler flags
     sources: list
-    names: dict  # what they define for themselves: name -> where, or what an alias stands for
-    types: set  # names of the project's types that they see
+    names: dict  # names that they define locally: name -> file, or the target of an alias
+    types: set  # names of the project's types that they include
 
 
 # --- What is built --------------------------------------------------------------------------------
@@ -63,7 +63,7 @@ def is_looked_at(name):
 
 
 def flags_of(entry):
-    """Standard, definitions and folders of an entry of the compile database."""
+    """Language standard, definitions and include folders of an entry of the compile database."""
     words = iter(shlex.split(entry["command"]))
     flags = []
     for word in words:
@@ -77,7 +77,7 @@ def flags_of(entry):
 
 
 def compiled_by(entry):
-    """Paths of the sources of an entry of the compile database: several in a unity build."""
+    """Paths of the sources of an entry of the compile database; several in a unity build."""
     path = os.path.realpath(os.path.join(entry["directory"], entry["file"]))
     if "Unity" not in path.split(os.sep) or not os.path.exists(path):
         return [path]
@@ -85,7 +85,7 @@ def compiled_by(entry):
 
 
 def sources_of(database, top):
-    """Flags of each of the project's sources, by its path."""
+    """Flags of each of the project's sources, by path."""
     found = {}
     for entry in json.loads(database.read_text(encoding="utf-8")):
         for path in compiled_by(entry):
@@ -97,8 +97,8 @@ def sources_of(database, top):
 # --- What changed ---------------------------------------------------------------------------------
 
 def including(header, sources, top):
-    """The source that includes it, best that of its own name, or that includes a header that does; None
-    if none does."""
+    """A source that includes the header directly, preferably that with the same name, or indirectly;
+    None if there is none."""
     users = [path for path in sorted(sources)
              if header in HEADER.findall(pathlib.Path(path).read_text(encoding="utf-8"))]
     own = [path for path in users if pathlib.Path(path).stem == pathlib.Path(header).stem]
@@ -112,7 +112,7 @@ def including(header, sources, top):
 
 
 def those_of(sources, names, top):
-    """Of the sources those that changed, and one for each header that did."""
+    """The changed sources, and one source for each changed header."""
     chosen = {path for path in sources if os.path.relpath(path, top) in names}
     for name in names:
         if name.endswith(".h") and (top / name).exists():
@@ -121,7 +121,7 @@ def those_of(sources, names, top):
 
 
 def looked_at(sources, since, top):
-    """Those that are to be looked at, and why."""
+    """The sources to check, and the reason in words."""
     if since is None:
         return sources, "all"
     commit = since.read_text(encoding="utf-8").split()[0]
@@ -134,13 +134,13 @@ def looked_at(sources, since, top):
 # --- Units ----------------------------------------------------------------------------------------
 
 def is_own(name):
-    """Not a member, a name of another namespace, or what only looks like a name."""
+    """Whether it is a locally defined name: not a member, not qualified, not a keyword or macro."""
     return "::" not in name and name not in ("static_assert", "BENCHMARK")
 
 
 def own_names(path):
-    """What a source defines in its unnamed namespaces, and where a program starts; good enough to guess
-    what goes together."""
+    """Names that a source defines in unnamed namespaces, and entry points; a heuristic for which sources
+    can be compiled together."""
     text = pathlib.Path(path).read_text(encoding="utf-8")
     names = {found.group(1) or "main": path for found in ENTRY.finditer(text)}
     for block in re.findall(r"^namespace \{$(.*?)^\}  // namespace$", text, re.DOTALL | re.MULTILINE):
@@ -156,7 +156,7 @@ def own_names(path):
 
 @functools.cache
 def seen_types(path, top):
-    """Types that a file or the project's headers that it includes declare outside of all else."""
+    """Types at namespace scope in a file, if it is a header, and in project headers that it includes."""
     path = pathlib.Path(path)
     if not path.exists():
         return frozenset()  # made by the build
@@ -175,7 +175,7 @@ def go_together(one, other):
 
 
 def units_of(sources, top):
-    """Each source in the first unit that it goes together with."""
+    """Assigns each source to the first unit with which it can be compiled."""
     units = []
     for path, flags in sorted(sources.items()):
         alone = Unit(flags, [path], own_names(path), set(seen_types(path, top)))
@@ -193,7 +193,7 @@ def units_of(sources, top):
 
 
 def part_of(units, part, of):
-    """Those of one of so many parts, each of about as many sources."""
+    """The units of one of `of` parts with about equal numbers of sources."""
     parts = [[] for _ in range(of)]
     for unit in sorted(units, key=lambda unit: -len(unit.sources)):
         min(parts, key=lambda units: sum(len(unit.sources) for unit in units)).append(unit)
@@ -203,7 +203,7 @@ def part_of(units, part, of):
 # --- clang-tidy -----------------------------------------------------------------------------------
 
 class Tidy:
-    """Runs it; files are made in a folder."""
+    """Runs clang-tidy; its input files are written to a folder."""
 
     def __init__(self, top, folder):
         self.folder = pathlib.Path(folder)
@@ -219,7 +219,7 @@ class Tidy:
         return (done.stdout or done.stderr) if done.returncode else ""
 
     def look_at(self, unit):
-        """What it says of a unit, "" where that is nothing."""
+        """Findings in a unit, or ""."""
         with tempfile.NamedTemporaryFile("w", dir=self.folder, suffix=".cc") as file:
             for path in unit.sources:
                 file.write(f'#include "{path}"  // NOLINT(bugprone-suspicious-include)\n')
@@ -234,7 +234,7 @@ class Tidy:
 
 
 def notices(tidy):
-    """Whether it says something of a fault among faultless sources."""
+    """Whether a planted fault among faultless sources is found."""
     for name, text in (("good.cc", "int g() { return 1; }\n"), ("planted.cc", PLANTED)):
         (tidy.folder / name).write_text(text, encoding="utf-8")
     sources = [str(tidy.folder / name) for name in ("good.cc", "planted.cc")]

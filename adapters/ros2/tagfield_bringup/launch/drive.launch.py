@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plays a scenario into ROS 2 whose robot is driven from outside, with RViz beside it.
+"""Publishes a scenario, whose robot is driven by velocity commands, to ROS 2, and starts RViz.
 
     ros2 launch tagfield_bringup drive.launch.py scenario:=scenarios/paper_warehouse_slam.yaml
     ros2 run teleop_twist_keyboard teleop_twist_keyboard

@@ -4,8 +4,8 @@
     ros2 launch tagfield_bringup navigation.launch.py scenario:=scenarios/paper_warehouse_slam.yaml
     ros2 launch tagfield_bringup navigation.launch.py scenario:=… map:=runs/paper_warehouse_slam/map.yaml
 
-Without a map slam_toolbox makes one on the way; with one amcl localizes the robot on it. The
-arguments of drive.launch.py go with it, too.
+Without a map, slam_toolbox builds one while driving; with a map, amcl localizes the robot on it. The
+arguments of drive.launch.py are accepted, too.
 """
 
 from launch import LaunchDescription
@@ -22,14 +22,14 @@ def share(*path):
 
 
 def include(name):
-    # What has no default has to be handed on by name.
+    # Arguments without a default have to be passed explicitly.
     arguments = {"scenario": LaunchConfiguration("scenario")}
     return IncludeLaunchDescription(PythonLaunchDescriptionSource(share("launch", name)),
                                     launch_arguments=arguments.items())
 
 
 def managed(manager, nodes, *parameters):
-    """Nodes (package, executable), which is their name too, and who brings them up in this order."""
+    """Nodes of (package, executable), named like the executable, and their lifecycle manager."""
     started = [Node(package=package, executable=name, name=name, output="screen",
                     parameters=[share("params", "nav2.yaml"), *parameters])
                for package, name in nodes]
@@ -50,8 +50,7 @@ def generate_launch_description():
     mapping = GroupAction(
         [include("slam.launch.py")],
         condition=IfCondition(PythonExpression(["'", chosen, "' == ''"])))
-    # Not through nav2_bringup's launch file: what that starts, and wants to be told, differs from
-    # one distribution to the next.
+    # Not by nav2_bringup's launch file: its nodes and arguments differ between distributions.
     navigation = managed("lifecycle_manager_navigation",
                          [("nav2_controller", "controller_server"), ("nav2_planner", "planner_server"),
                           ("nav2_behaviors", "behavior_server"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plays a scenario into ROS 2, with RViz beside it.
+"""Publishes a scenario to ROS 2, and starts RViz.
 
     ros2 launch tagfield_bringup run.launch.py scenario:=scenarios/paper_warehouse.yaml speed:=2
 """

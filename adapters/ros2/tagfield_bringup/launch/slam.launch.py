@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""slam_toolbox maps the world of a scenario, whose robot somebody drives.
+"""slam_toolbox maps the world of a scenario while its robot is driven by velocity commands.
 
     ros2 launch tagfield_bringup slam.launch.py scenario:=scenarios/paper_warehouse_slam.yaml
 
-The arguments of drive.launch.py go with it, too.
+The arguments of drive.launch.py are accepted, too.
 """
 
 from launch import LaunchDescription
@@ -23,10 +23,10 @@ def include(package, name, **arguments):
 
 
 def generate_launch_description():
-    # slam_toolbox's own launch file knows whether its node has a life cycle, as from Jazzy on.
+    # slam_toolbox's own launch file handles the node's lifecycle, which exists from Jazzy on.
     slam = include("slam_toolbox", "online_async_launch.py", use_sim_time="true",
                    slam_params_file=share("tagfield_bringup", "params", "slam_toolbox.yaml"))
-    # What has no default has to be handed on by name.
+    # Arguments without a default have to be passed explicitly.
     drive = include("tagfield_bringup", "drive.launch.py", scenario=LaunchConfiguration("scenario"))
     return LaunchDescription([
         DeclareLaunchArgument("scenario", description="Scenario file (YAML)"), drive, slam])
