@@ -74,7 +74,8 @@ py::object tags_table(const Coverage& coverage, const std::vector<std::string>& 
   }
   std::vector<std::string> verdicts;
   for (const TagVerdict verdict :
-       {TagVerdict::kNever, TagVerdict::kIntended, TagVerdict::kAlsoOther, TagVerdict::kWrong}) {
+       {TagVerdict::kNever, TagVerdict::kIntended, TagVerdict::kAlsoOther, TagVerdict::kWrong,
+        TagVerdict::kSeldom}) {
     verdicts.emplace_back(word_of(verdict));
   }
   return table(

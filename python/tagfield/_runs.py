@@ -277,8 +277,8 @@ class Coverage:
     """Coverage maps: where a tag would be read.
 
     layers: a :class:`Layer` for each height.
-    tags: the scenario's own tags: tag, verdict (never, intended, also_other, wrong), nearest (antenna),
-        antenna (with the greatest margin), position_m (3,), nearest_m, power_dbm, reply_dbm, margin_db,
+    tags: the scenario's own tags: tag, verdict (never, seldom, intended, also_other, wrong), nearest
+        (antenna), antenna (with the greatest margin), position_m (3,), nearest_m, power_dbm, reply_dbm, margin_db,
         probability. See docs/coverage.md.
     x_m, y_m: centres of the columns (columns,) and rows (rows,) [m, world].
     warnings: one line each.

@@ -140,6 +140,15 @@ def test_coverage_of_a_paper_antenna_is_a_disc():
         scenario.coverage(region_m=(1, 1, 0, 0))
 
 
+def test_coverage_names_the_verdict_of_each_tag():
+    tags = [{"id": f"tag{x}", "position": [x, 0, 1], "rpy": [0, 0, math.pi]} for x in range(1, 41)]
+    found = portal(tags=tags).coverage(heights_m=[1], step_m=1, region_m=(-3, -3, 3, 3)).tags
+    verdicts = found.names("verdict")
+    assert set(verdicts) == {"intended", "seldom", "never"}
+    assert (found["probability"][verdicts == "seldom"] < 0.5).all()
+    assert (found["probability"][verdicts == "intended"] >= 0.5).all()
+
+
 def test_a_plan_s_layout_runs(tmp_path):
     path = tmp_path / "shelf.yaml"
     path.write_text("""

@@ -463,6 +463,11 @@ def no_barrier_is_serious(context, one, address, shared):
             check_equal(serious_barriers(one.driver, axe), [], f"{theme}, {what}: barriers")
 
 
+@with_page("--change-while-loading")
+def changes_while_the_page_loads_are_not_missed(context, one, address, shared):
+    one.wait("world.position.slice(0, 3).join() === '1,2,3'", "the tag is where it was moved to", 20)
+
+
 @with_page()
 def changes_reach_the_world(context, one, address, shared):
     one.do("view.lists.show('changes')")

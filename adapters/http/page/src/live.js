@@ -31,16 +31,18 @@ export class Live {
     this.token = new URLSearchParams(location.hash.slice(1)).get("token") ?? "";
   }
 
-  // Opens the socket first and then fetches the world; earlier frames are ignored.
+  // Opens the socket first and then fetches the world: frames that arrive meanwhile are kept and
+  // applied afterwards, as the world may have changed since one of its parts was answered.
   start() {
     this.say("connecting", "connecting …");
     const address = new URL("api/live", location.href);
     address.protocol = address.protocol.replace("http", "ws");
     address.hash = "";
     this.loaded = false;
+    this.early = [];
     const socket = new WebSocket(address);
     socket.onopen = () => this.#opened(socket);
-    socket.onmessage = (event) => this.loaded && this.#frame(JSON.parse(event.data));
+    socket.onmessage = (event) => this.#received(JSON.parse(event.data));
     socket.onclose = () => this.#again();
   }
 
@@ -52,8 +54,17 @@ export class Live {
       return;
     }
     this.loaded = true;
+    // Without their reads, which the world's counts already contain.
+    for (const frame of this.early.splice(0)) this.#apply({...frame, reads: []});
     this.wait = FIRST_WAIT_MS;
     this.say("connected", "");
+  }
+
+  #received(frame) {
+    if (this.loaded)
+      this.#frame(frame);
+    else
+      this.early.push(frame);
   }
 
   async #fetchAll() {

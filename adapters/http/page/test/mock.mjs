@@ -3,10 +3,12 @@
 // real run in a loop and adds N synthetic tags. For the page's own tests and for its development.
 //
 //   node mock.mjs PAGE.html RUN_FOLDER WORLD.sdf [--tags N] [--port P] [--recorded]
-//                 [--explain TAGFIELD SCENARIO] [--modules DIR]
+//                 [--explain TAGFIELD SCENARIO] [--modules DIR] [--change-while-loading]
 //
 // The first line printed is "http: http://127.0.0.1:PORT". Link and coverage are computed by the
 // real program given with --explain; without it these requests are answered with 409.
+// With --change-while-loading the first tag moves to (1, 2, 3) after the first answer to
+// GET /api/tags was put together, and a frame says so before that answer is sent.
 
 import {execFile} from "node:child_process";
 import {mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
@@ -14,6 +16,7 @@ import http from "node:http";
 import {createRequire} from "node:module";
 import os from "node:os";
 import path from "node:path";
+import {setTimeout} from "node:timers/promises";
 import {fileURLToPath} from "node:url";
 import {promisify} from "node:util";
 
@@ -30,6 +33,7 @@ function parse(words) {
     port: 0,
     recorded: false,
     explain: null,
+    changesWhileLoading: false,
     modules: path.join(path.dirname(fileURLToPath(import.meta.url)), "..")
   };
   while (words.length) {
@@ -44,6 +48,8 @@ function parse(words) {
       given.explain = [words.shift(), words.shift()];
     else if (word === "--modules")
       given.modules = words.shift();
+    else if (word === "--change-while-loading")
+      given.changesWhileLoading = true;
     else
       given.files.push(word);
   }
@@ -283,6 +289,16 @@ function change(method, [kind, name, verb], body) {
   }
 }
 
+async function tags() {
+  const answered = structuredClone(world.tags);
+  if (given.changesWhileLoading) {
+    given.changesWhileLoading = false;
+    change("POST", ["tags", world.tags[0].id, "move"], {position: [1, 2, 3]});
+    await setTimeout(10 * 1000 * FRAME_S);
+  }
+  return {tags: answered};
+}
+
 async function answer(method, words, query, body) {
   const what = words.join("/");
   if (method === "GET") {
@@ -290,7 +306,7 @@ async function answer(method, words, query, body) {
     if (what === "run" && given.recorded) return run;
     if (what === "scene") return {...run.scene, obstacles: world.obstacles};
     if (what === "antennas") return {antennas: world.antennas};
-    if (what === "tags") return {tags: world.tags};
+    if (what === "tags") return tags();
     if (what === "explain") return explain(query);
     if (what === "coverage") return coverage(query);
     throw new Refused(404, `no such address: /api/${what}`);
