@@ -55,7 +55,7 @@ std::vector<std::vector<Ray>> scans_of_rays(const LaserParameters& laser) {
                            (laser.last_angle_rad - laser.first_angle_rad) * i / (laser.beams - 1);
       const Eigen::Vector3d forward(std::cos(angle), std::sin(angle), 0.0);
       scans[k].push_back({X_WL.translation.cast<float>(), (X_WL.rotation * forward).cast<float>(),
-                          static_cast<float>(laser.most_range_m)});
+                          static_cast<float>(laser.max_range_m)});
     }
   }
   return scans;

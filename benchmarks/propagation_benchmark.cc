@@ -31,10 +31,10 @@ const Scene& load(std::int64_t which) {
   return scenes[which];
 }
 
-RadioSceneOptions options_for(const Scene& scene, bool opaque, double least_facet_m2) {
+RadioSceneOptions options_for(const Scene& scene, bool opaque, double min_facet_m2) {
   RadioSceneOptions options;
   options.opaque.assign(scene.collisions.size(), opaque ? 1 : 0);
-  options.least_facet_m2 = least_facet_m2;
+  options.min_facet_m2 = min_facet_m2;
   return options;
 }
 

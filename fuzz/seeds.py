@@ -177,7 +177,7 @@ def settings():
         kind = b"\2" if path.parent.name == "datasets" else b"\1"
         yield f"{path.parent.name}_{path.stem}", kind + path.read_bytes()
     yield "calibration", (b"\3name: own\nkind: calibration\nantennas:\n  left:\n    reads: 5\n"
-                          b"    phase_sign: -1\n    place_m: {x: {value: 1, sigma: 0.1}, y: {value: 0}, "
+                          b"    phase_sign: -1\n    phase_centre_m: {x: {value: 1, sigma: 0.1}, y: {value: 0}, "
                           b"z: {value: 1, observable: false}}\n    offsets:\n"
                           b"      - {frequency_hz: 866.9e6, value_rad: 1, sigma_rad: 0.1, reads: 5}\n")
 

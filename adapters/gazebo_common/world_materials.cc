@@ -114,14 +114,14 @@ RadioWorldOptions materials_in(const sdf::ElementPtr& plugin, Diagnostics& diagn
       options.rules.push_back(rule_in(child, options.materials));
     } else if (key == "default_material") {
       options.otherwise = find_material(options.materials, parameter.value).name;
-    } else if (key == "least_facet_m2") {
-      options.least_facet_m2 = number_in(parameter);
+    } else if (key == "min_facet_m2") {
+      options.min_facet_m2 = number_in(parameter);
     } else {
-      warn_of_unknown(key, {"made_of", "default_material", "least_facet_m2", "material"},
+      warn_of_unknown(key, {"made_of", "default_material", "min_facet_m2", "material"},
                       diagnostics);
     }
   }
-  if (options.least_facet_m2 < 0.0) throw Error("<least_facet_m2> must be 0 or more");
+  if (options.min_facet_m2 < 0.0) throw Error("<min_facet_m2> must be 0 or more");
   return options;
 }
 

@@ -58,8 +58,8 @@ void RobotTopics::publish(const ScanReport& scan) const {
   message.angle_max = static_cast<float>(scan.last_angle_rad);
   message.angle_increment = static_cast<float>(steps > 0.0 ? turn_rad / steps : 0.0);
   message.scan_time = static_cast<float>(scan.interval_s);
-  message.range_min = static_cast<float>(scan.least_range_m);
-  message.range_max = static_cast<float>(scan.most_range_m);
+  message.range_min = static_cast<float>(scan.min_range_m);
+  message.range_max = static_cast<float>(scan.max_range_m);
   message.ranges = scan.ranges_m;
   scans_.publish(scan.stamp, message);
 }

@@ -34,8 +34,8 @@ sensor_msgs::LaserScan scan_message(const LaserScan& scan, const std::string& fr
   message.angle_increment = static_cast<float>(scan.angle_step_rad);
   message.time_increment = static_cast<float>(to_seconds(scan.beam_interval));
   message.scan_time = static_cast<float>(1.0 / rate_hz);
-  message.range_min = static_cast<float>(scan.least_range_m);
-  message.range_max = static_cast<float>(scan.most_range_m);
+  message.range_min = static_cast<float>(scan.min_range_m);
+  message.range_max = static_cast<float>(scan.max_range_m);
   message.ranges.reserve(scan.ranges_m.size());
   for (const float range_m : scan.ranges_m) message.ranges.push_back(range_of(scan, range_m));
   return message;

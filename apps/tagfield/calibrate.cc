@@ -46,7 +46,7 @@ std::string table_of(const Calibration& calibration) {
                     antenna.phase_sign > 0 ? "grows" : "falls", antenna.noise_rad);
     for (int i = 0; i < 3; ++i) {
       const char* const names[] = {"position x", "position y", "position z"};
-      text += figure(names[i], antenna.place_m[i], 1e3, "mm");
+      text += figure(names[i], antenna.phase_centre_m[i], 1e3, "mm");
     }
     text += figure("late by", antenna.time_offset_s, 1e3, "ms");
     for (const ChannelOffset& offset : antenna.offsets) {
@@ -73,12 +73,13 @@ std::string to_json(const Calibration& calibration) {
     nlohmann::ordered_json& one = json["antennas"][name];
     one = {{"reads", antenna.reads},
            {"phase_sign", antenna.phase_sign},
-           {"place_m", nlohmann::ordered_json::array()},
+           {"phase_centre_m", nlohmann::ordered_json::array()},
            {"time_offset_s", json_of(antenna.time_offset_s)},
            {"noise_rad", antenna.noise_rad},
            {"tag_scatter_rad", antenna.tag_scatter_rad},
            {"offsets", nlohmann::ordered_json::array()}};
-    for (const CalibratedValue& place : antenna.place_m) one["place_m"].push_back(json_of(place));
+    for (const CalibratedValue& place : antenna.phase_centre_m)
+      one["phase_centre_m"].push_back(json_of(place));
     for (const ChannelOffset& offset : antenna.offsets) {
       one["offsets"].push_back({{"frequency_hz", offset.frequency_hz},
                                 {"value_rad", offset.value_rad},
@@ -189,7 +190,7 @@ void add_calibrate_command(CLI::App& app, Action& chosen) {
   command->add_option("--out", arguments->out, "Profile to write (YAML)")->required();
   command
       ->add_option(
-          "--place-sigma", arguments->options.place_sigma_m,
+          "--phase-centre-sigma", arguments->options.phase_centre_sigma_m,
           "How far off each component of an antenna's position may be, one sigma [m] (default 0.1)")
       ->check(CLI::PositiveNumber);
   command

@@ -31,7 +31,7 @@ void write(const AntennaPlan& plan, const std::string& layout,
   folder.add("plan.json", plan_to_json(plan));
   folder.add("plan_layouts.csv", plan_layouts_to_csv(plan));
   folder.add("plan_antennas.csv", plan_antennas_to_csv(plan));
-  folder.add("plan_places.csv", plan_positions_to_csv(plan));
+  folder.add("plan_positions.csv", plan_positions_to_csv(plan));
   folder.add("layout.yaml", layout);
   folder.commit({"figures"});
 }

@@ -160,7 +160,8 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
                   "and how far to the side they may be (one sigma, default 0.1 m)")
       ->expected(3, 4)
       ->delimiter(',');
-  command.add_flag("--both-ways", arguments.both_ways, "Tags may also move backwards on the lane");
+  command.add_flag("--bidirectional", arguments.bidirectional,
+                   "Tags may also move backwards on the lane");
   command
       .add_option(
           "--line", arguments.line,
@@ -205,9 +206,9 @@ void apply(const TrackArguments& arguments, TrackingSpec& spec) {
     if (arguments.lane.size() > 3) lane.lateral_sigma_m = arguments.lane[3];
     options.lane = lane;
   }
-  if (arguments.both_ways) {
-    if (!options.lane) throw Error("track: --both-ways can only be used with a lane");
-    options.lane->both_ways = true;
+  if (arguments.bidirectional) {
+    if (!options.lane) throw Error("track: --bidirectional can only be used with a lane");
+    options.lane->bidirectional = true;
   }
   if (!arguments.line.empty()) {
     spec.line = PassingLine{{arguments.line[0], arguments.line[1]}, radians(arguments.line[2])};

@@ -28,7 +28,7 @@ struct TrackArguments {
   std::vector<double> line;        ///< X Y HEADING_DEG.
   std::vector<double> speeds;      ///< MIN MAX.
   std::vector<double> old_speeds;  ///< Same, by the option's old name.
-  bool both_ways = false;
+  bool bidirectional = false;
   std::optional<double> acceleration_noise;
   std::optional<double> tag_height_m;
   std::string heights_file;

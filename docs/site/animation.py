@@ -80,7 +80,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     run = tagfield.load(tagfield.share("scenarios/paper_warehouse.yaml")).run(seed=1)
-    truth = run.truth.places_m()
+    truth = run.truth.positions_m()
     heights_m = {tag: place[2] for tag, place in truth.items()}
     times = np.linspace(0, run.reads.time_s[-1], FRAMES + 1)[1:]
     history = [estimates_by(run, heights_m, end_s) for end_s in times]

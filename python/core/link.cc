@@ -150,14 +150,14 @@ LinkRow one_link(AntennaLinks& self, double x_m, double y_m, double z_m) {
 
 using PlacesArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-py::object batch(AntennaLinks& self, const PlacesArray& places_m) {
-  if (places_m.ndim() != 2 || places_m.shape(1) != 3) {
-    throw Error("link: places_m must be of shape (N, 3)");
+py::object batch(AntennaLinks& self, const PlacesArray& positions_m) {
+  if (positions_m.ndim() != 2 || positions_m.shape(1) != 3) {
+    throw Error("link: positions_m must be of shape (N, 3)");
   }
-  const auto count = static_cast<std::size_t>(places_m.shape(0));
+  const auto count = static_cast<std::size_t>(positions_m.shape(0));
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
   const std::span<const Eigen::Vector3d> places(
-      reinterpret_cast<const Eigen::Vector3d*>(places_m.data()), count);
+      reinterpret_cast<const Eigen::Vector3d*>(positions_m.data()), count);
   std::vector<LinkRow> rows(count);
   {
     const py::gil_scoped_release unlocked;
@@ -188,8 +188,8 @@ void bind_links(py::module_& module) {
       "Not for several threads at once: give each its own.")
       .def("__call__", &one_link, py::arg("x_m"), py::arg("y_m"), py::arg("z_m"),
            "The link to a tag at x, y, z [m, world], as a LinkState.")
-      .def("batch", &batch, py::arg("places_m"),
-           "Links to tags at places_m (N, 3) [m, world], as a table of N rows: distance_m,\n"
+      .def("batch", &batch, py::arg("positions_m"),
+           "Links to tags at positions_m (N, 3) [m, world], as a table of N rows: distance_m,\n"
            "tag_dbm, reply_dbm, phase_rad, heard.");
   module.def("link", &links_from, py::arg("loaded"), py::arg("antenna"), py::arg("tag"),
              py::arg("time_s"), py::arg("tag_rpy_rad"));

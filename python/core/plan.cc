@@ -64,7 +64,7 @@ py::dict plan(const std::string& path, const std::vector<Override>& overrides, b
   all["json"] = plan_to_json(here.plan);
   all["layouts_csv"] = plan_layouts_to_csv(here.plan);
   all["antennas_csv"] = plan_antennas_to_csv(here.plan);
-  all["places_csv"] = plan_positions_to_csv(here.plan);
+  all["positions_csv"] = plan_positions_to_csv(here.plan);
   all["html"] = plan_page(here.plan, plan_figures(here.plan, here.outlines));
   all["layout"] = here.layout;
   all["warnings"] = here.plan.warnings;

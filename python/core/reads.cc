@@ -243,9 +243,9 @@ TrackingSpec tracking_of(const Asked& asked, const LoadedPtr& loaded) {
     if (lane->size() == 4) of.lateral_sigma_m = (*lane)[3];
     options.lane = of;
   }
-  if (const auto both_ways = asked.get<bool>("both_ways")) {
-    if (!options.lane) throw Error("track: both_ways can only be used with a lane");
-    options.lane->both_ways = *both_ways;
+  if (const auto bidirectional = asked.get<bool>("bidirectional")) {
+    if (!options.lane) throw Error("track: bidirectional can only be used with a lane");
+    options.lane->bidirectional = *bidirectional;
   }
   if (const auto line = asked.get<std::vector<double>>("line")) {
     if (line->size() != 3) throw Error("track: line must be x, y [m] and heading [deg]");
@@ -336,8 +336,9 @@ py::dict to_python(const Calibration& calibration, const std::vector<std::string
   for (const auto& [name, antenna] : calibration.antennas) {
     py::dict of;
     of["phase_sign"] = antenna.phase_sign;
-    of["place_m"] = py::make_tuple(value_of(antenna.place_m[0]), value_of(antenna.place_m[1]),
-                                   value_of(antenna.place_m[2]));
+    of["phase_centre_m"] =
+        py::make_tuple(value_of(antenna.phase_centre_m[0]), value_of(antenna.phase_centre_m[1]),
+                       value_of(antenna.phase_centre_m[2]));
     of["time_offset_s"] = value_of(antenna.time_offset_s);
     of["noise_rad"] = antenna.noise_rad;
     of["reads"] = antenna.reads;
@@ -357,10 +358,10 @@ py::dict to_python(const Calibration& calibration, const std::vector<std::string
 }
 
 py::dict calibrate(const ReadsArgument& reads, const PosesArgument& poses, const PlacesById& tags,
-                   double place_sigma_m, double time_sigma_s, int threads) {
+                   double phase_centre_sigma_m, double time_sigma_s, int threads) {
   const Tables tables = tables_from(reads, poses, {});
   CalibrationOptions options;
-  options.place_sigma_m = place_sigma_m;
+  options.phase_centre_sigma_m = phase_centre_sigma_m;
   options.time_offset_sigma_s = time_sigma_s;
   check(options);
   if (!has_phases(tables.reads)) {
@@ -410,7 +411,7 @@ void bind_reads(py::module_& module) {
   module.def("track", &track, py::arg("reads"), py::arg("poses"), py::arg("loaded").none(true),
              py::arg("keywords"), py::arg("threads"));
   module.def("calibrate", &calibrate, py::arg("reads"), py::arg("poses"), py::arg("tags"),
-             py::arg("place_sigma_m"), py::arg("time_sigma_s"), py::arg("threads"));
+             py::arg("phase_centre_sigma_m"), py::arg("time_sigma_s"), py::arg("threads"));
   module.def("read", &read, py::arg("reads"), py::arg("poses"), py::arg("format"));
   module.def("read_dtype", [] { return py::dtype::of<ReadRow>(); });
   module.def("pose_dtype", [] { return py::dtype::of<PoseRow>(); });

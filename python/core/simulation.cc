@@ -147,7 +147,7 @@ py::object scan_of(Stepping& self) {
   const std::optional<LaserScan>& scan = self.driver().scan();
   if (!scan) return py::none();
   return py::make_tuple(
-      to_seconds(scan->stamp), scan->first_angle_rad, scan->angle_step_rad, scan->most_range_m,
+      to_seconds(scan->stamp), scan->first_angle_rad, scan->angle_step_rad, scan->max_range_m,
       owned_array(scan->ranges_m, {static_cast<py::ssize_t>(scan->ranges_m.size())}));
 }
 

@@ -65,9 +65,9 @@ class Plan:
         """One row per antenna of each layout, as a pandas.DataFrame."""
         return frame_of(self._parts["antennas_csv"])
 
-    def places(self) -> pandas.DataFrame:
+    def positions(self) -> pandas.DataFrame:
         """One row per tag position, with its read probability p_N by number of antennas N."""
-        return frame_of(self._parts["places_csv"])
+        return frame_of(self._parts["positions_csv"])
 
     def save_page(self, path: str | os.PathLike) -> None:
         """Writes a self-contained HTML page with a floor plan of each layout."""

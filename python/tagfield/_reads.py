@@ -137,7 +137,7 @@ def track(reads: Any, poses: Any, *, scenario: Scenario | None = None, threads: 
 
     method: "ekf", "ukf" or "particle".
     lane: x, y [m], heading [deg] and optionally sigma [m] of the lane along which tags move.
-    both_ways: whether tags can move in both directions along the lane.
+    bidirectional: whether tags can move in both directions along the lane.
     line: x, y [m], heading [deg] of the line at which the order of passing is reported.
     speed_m_s: minimum and maximum speed.
     acceleration_noise: in m/s²/√Hz.
@@ -153,8 +153,8 @@ def track(reads: Any, poses: Any, *, scenario: Scenario | None = None, threads: 
 class Calibration:
     """Calibration of antennas from reads of tags at known positions.
 
-    antennas: by name {"phase_sign", "place_m": 3 × (value, sigma, observable), "time_offset_s": (value,
-        sigma, observable), "noise_rad", "reads", "offsets_rad": {frequency_hz: (value, sigma)}}; place_m
+    antennas: by name {"phase_sign", "phase_centre_m": 3 × (value, sigma, observable), "time_offset_s": (value,
+        sigma, observable), "noise_rad", "reads", "offsets_rad": {frequency_hz: (value, sigma)}}; phase_centre_m
         is the phase centre's position in the antenna's believed frame.
     pi_ambiguity: whether the phases have the π ambiguity.
     yaml: the profile, for ``tagfield localize --calibration``.
@@ -174,7 +174,7 @@ class Calibration:
         Path(path).write_text(self.yaml, encoding="utf-8")
 
 
-def calibrate(reads: Any, poses: Any, tags: Mapping[str, Any], *, place_sigma_m: float = 0.1,
+def calibrate(reads: Any, poses: Any, tags: Mapping[str, Any], *, phase_centre_sigma_m: float = 0.1,
               time_sigma_s: float = 0.05, threads: int | None = None) -> Calibration:
     """Estimates phase centres, time offsets, phase offsets and phase noise of antennas.
 
@@ -182,18 +182,18 @@ def calibrate(reads: Any, poses: Any, tags: Mapping[str, Any], *, place_sigma_m:
 
     reads, poses: see :func:`localize`.
     tags: known positions (3,) [m, world] of the tags, by ID.
-    place_sigma_m: prior standard deviation of the phase centre's position, per axis.
+    phase_centre_sigma_m: prior standard deviation of the phase centre's position, per axis.
     time_sigma_s: prior standard deviation of the time offset.
     """
     places = {tag: np.asarray(place, dtype=float) for tag, place in tags.items()}
     return Calibration(**_core.calibrate(_reads_argument(reads), _poses_argument(poses), places,
-                                         place_sigma_m, time_sigma_s, threads_of(threads)))
+                                         phase_centre_sigma_m, time_sigma_s, threads_of(threads)))
 
 
 _HEIGHTS = {"tag_height_m", "tag_heights_m", "height", "offset_rad", "offsets_rad"}
 _KNOWN = _HEIGHTS | {"side", "box_m", "reference_tags", "pose_sigma_m", "pose_yaw_sigma_deg",
                      "pose_time_constant_s", "world_sigma_m", "max_expected_error_m", "pi_ambiguity"}
-_TRACK = _HEIGHTS - {"height"} | {"method", "lane", "both_ways", "line", "speed_m_s", "acceleration_noise"}
+_TRACK = _HEIGHTS - {"height"} | {"method", "lane", "bidirectional", "line", "speed_m_s", "acceleration_noise"}
 
 
 def _refuse_unknown(function: str, told: Mapping[str, Any], known: set[str]) -> None:

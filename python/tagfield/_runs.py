@@ -33,7 +33,7 @@ class Truth:
     tags: Table
     distances: Table
 
-    def places_m(self) -> dict[str, np.ndarray]:
+    def positions_m(self) -> dict[str, np.ndarray]:
         """The last position (3,) [m, world] of each tag, by ID."""
         return {name: row["position_m"].copy()
                 for name, row in zip(self.tags.names("tag"), self.tags, strict=True)}
@@ -132,13 +132,13 @@ class Run(Localization):
 class Scan:
     """One laser scan of a robot: ranges_m (N,) at first_angle_rad + i·angle_step_rad, counterclockwise.
 
-    A range above most_range_m means no hit; 0 is an invalid beam.
+    A range above max_range_m means no hit; 0 is an invalid beam.
     """
 
     stamp_s: float
     first_angle_rad: float
     angle_step_rad: float
-    most_range_m: float
+    max_range_m: float
     ranges_m: np.ndarray
 
 

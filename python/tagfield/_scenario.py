@@ -339,7 +339,7 @@ class Scenario:
 
     def link(self, *, antenna: str = "", tag: str = "", time_s: float = 0.0,
              tag_rpy_rad: Sequence[float] = (0, 0, 0)) -> _core.Link:
-        """An antenna's link model at one time, without noise: ``link(x, y, z)``, ``link.batch(places)``.
+        """An antenna's link model at one time, without noise: ``link(x, y, z)``, ``link.batch(positions_m)``.
 
         The tag has the model of `tag` (by default the first) and the orientation `tag_rpy_rad` (roll,
         pitch, yaw). Moving bodies, other readers and neighbouring tags are not included.

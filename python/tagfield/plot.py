@@ -64,7 +64,7 @@ def hall(run: Run, ax: Axes | None = None, *, legend: bool = True) -> Axes:
             ax.plot(*track[0, :2], "s", color=_BLUE, markersize=7, label="antenna at rest")
         else:
             ax.plot(track[:, 0], track[:, 1], color=_BLUE, linewidth=1.4, label="antenna's path")
-    truth = np.array(list(run.truth.places_m().values())).reshape(-1, 3)
+    truth = np.array(list(run.truth.positions_m().values())).reshape(-1, 3)
     ax.plot(truth[:, 0], truth[:, 1], "o", markerfacecolor="none", markeredgecolor="black", markersize=9,
             label="true position")
     _estimates(run, ax)
@@ -191,7 +191,7 @@ def sar_image(run: Run, tag: str, ax: Axes | None = None, *, radius_m: float = 1
               step_m: float = 0.02) -> Axes:
     """Draws the SAR image (matched filter, tagfield.sar.image) of a tag around its true position."""
     ax = _axes(ax, (6.0, 5.0))
-    places = run.truth.places_m()
+    places = run.truth.positions_m()
     if tag not in places:
         raise Error(f"plot: there is no tag '{tag}'")
     x, y, z = places[tag]

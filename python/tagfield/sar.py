@@ -10,12 +10,12 @@ import numpy as np
 from ._core import Error
 from ._tables import Table
 
-__all__ = ["antenna_places", "image"]
+__all__ = ["antenna_positions", "image"]
 
 _LIGHT_M_S = 299_792_458.0
 
 
-def antenna_places(reads: Table, poses: Table) -> np.ndarray:
+def antenna_positions(reads: Table, poses: Table) -> np.ndarray:
     """(N, 3) believed antenna position [m, world] at each read, interpolated linearly between poses.
 
     An antenna with a single pose is fixed. NaN before the first pose and after the last.
@@ -43,7 +43,7 @@ def image(reads: Table, poses: Table, tag: str, x_m: Any, y_m: Any, height_m: fl
     and by magnitude over antennas and carriers; M is the number of reads. It is 1 where all phases fit.
     """
     of_tag = reads.where(tag=tag)
-    places = antenna_places(of_tag, poses)
+    places = antenna_positions(of_tag, poses)
     usable = np.isfinite(places[:, 0])
     if not usable.any():
         raise Error(f"sar: tag '{tag}' has no reads with a pose")

@@ -39,7 +39,7 @@ def test_reference_tags_are_not_located(scenario):
 
 
 def test_reads_by_themselves_are_located(run):
-    truth = run.truth.places_m()
+    truth = run.truth.positions_m()
     heights = {tag: place[2] for tag, place in truth.items()}
     found = tagfield.localize(run.reads, run.poses, "hyperbola", tag_heights_m=heights, truth=truth, pose_sigma_m=0)
     np.testing.assert_allclose(found.estimates["position_m"][found.located],
@@ -88,7 +88,7 @@ def test_own_method_is_one_like_others(scenario, run):
 
 
 def test_methods_say_what_they_like(run):
-    truth = run.truth.places_m()
+    truth = run.truth.positions_m()
 
     @tagfield.method("knower", per_tag=False)
     def knower(problem):
@@ -210,7 +210,7 @@ def test_runs_are_read_back(run, tmp_path):
 
 def test_calibration_finds_the_offset(scenario):
     off = scenario.with_({"antennas.mobile.phase_offset_rad": 1.3}).run(seed=1, locate=False)
-    calibration = tagfield.calibrate(off.reads, off.poses, off.truth.places_m())
+    calibration = tagfield.calibrate(off.reads, off.poses, off.truth.positions_m())
     antenna = calibration.antennas["mobile"]
     (value, sigma), = antenna["offsets_rad"].values()
     assert antenna["phase_sign"] == 1

@@ -95,7 +95,7 @@ def test_errors_reach_one(run):
 
 
 def test_sar_image_peaks_at_the_tag(run):
-    x, y, z = run.truth.places_m()["tag3"]
+    x, y, z = run.truth.positions_m()["tag3"]
     xs, ys = np.arange(x - 0.3, x + 0.3, 0.02), np.arange(y - 0.3, y + 0.3, 0.02)
     from tagfield import sar
 

@@ -44,7 +44,7 @@ def test_run_gives_what_the_command_writes(run, tmp_path):
 
 
 def test_truth_is_by_itself_consistent(run):
-    antennas, tags = run.truth.antennas, run.truth.places_m()
+    antennas, tags = run.truth.antennas, run.truth.positions_m()
     where = {int(row["stamp_ns"]): row["position_m"] for row in antennas}
     for read, distance in list(zip(run.reads, run.truth.distances))[::97]:
         place = tags[run.reads.categories["tag"][read["tag"]]]

@@ -91,7 +91,8 @@ Row linearize(const Model& model, const Sample& sample, const Vector4& theta) {
 
 Vector4 prior_weights(const CalibrationOptions& options) {
   Vector4 weights;
-  weights.head<3>().setConstant(1.0 / (options.place_sigma_m * options.place_sigma_m));
+  weights.head<3>().setConstant(1.0 /
+                                (options.phase_centre_sigma_m * options.phase_centre_sigma_m));
   weights(3) = 1.0 / (options.time_offset_sigma_s * options.time_offset_sigma_s);
   return weights;
 }
@@ -293,9 +294,9 @@ std::optional<AntennaCalibration> calibration_of(const AntennaData& data,
   result.tag_scatter_rad *= scale;
   result.reads = data.samples.size();
   for (Eigen::Index i = 0; i < 4; ++i) {
-    const double before = i < 3 ? options.place_sigma_m : options.time_offset_sigma_s;
+    const double before = i < 3 ? options.phase_centre_sigma_m : options.time_offset_sigma_s;
     const double sigma = std::sqrt(std::max(0.0, fit.covariance(i, i)));
-    CalibratedValue& value = i < 3 ? result.place_m[i] : result.time_offset_s;
+    CalibratedValue& value = i < 3 ? result.phase_centre_m[i] : result.time_offset_s;
     value = {fit.theta(i), sigma, sigma < 0.5 * before};
   }
   if (!agree) return result;
@@ -338,7 +339,7 @@ std::map<std::string, AntennaData> data_of(const SamplesByTag& samples,
 }  // namespace
 
 void check(const CalibrationOptions& options) {
-  require_positive("place_sigma_m", options.place_sigma_m);
+  require_positive("phase_centre_sigma_m", options.phase_centre_sigma_m);
   require_positive("time_offset_sigma_s", options.time_offset_sigma_s);
   require_positive("most_time_offset_s", options.most_time_offset_s);
   require_positive("max_pose_gap_s", options.max_pose_gap_s);

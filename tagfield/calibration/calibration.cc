@@ -28,7 +28,8 @@ std::string figure(const CalibratedValue& value) {
 }
 
 Eigen::Vector3d place_of(const AntennaCalibration& antenna) {
-  return {antenna.place_m[0].value, antenna.place_m[1].value, antenna.place_m[2].value};
+  return {antenna.phase_centre_m[0].value, antenna.phase_centre_m[1].value,
+          antenna.phase_centre_m[2].value};
 }
 
 }  // namespace
@@ -61,9 +62,9 @@ std::string to_yaml(const Calibration& calibration) {
   for (const auto& [name, antenna] : calibration.antennas) {
     text += fmt::format("  {}:\n    reads: {}\n    phase_sign: {}\n    noise_rad: {:.9g}\n",
                         quoted(name), antenna.reads, antenna.phase_sign, antenna.noise_rad);
-    text += "    place_m:  # of the phase centre, in the antenna's believed frame\n";
+    text += "    phase_centre_m:  # of the phase centre, in the antenna's believed frame\n";
     for (int i = 0; i < 3; ++i) {
-      text += fmt::format("      {}: {}\n", "xyz"[i], figure(antenna.place_m[i]));
+      text += fmt::format("      {}: {}\n", "xyz"[i], figure(antenna.phase_centre_m[i]));
     }
     text += fmt::format("    time_offset_s: {}  # by which stamps of reads are late\n",
                         figure(antenna.time_offset_s));

@@ -34,7 +34,7 @@ struct ChannelOffset {
 struct AntennaCalibration {
   int phase_sign = 1;  ///< −1 if reported phases fall with distance.
   /// Phase centre in the antenna's believed frame A [m].
-  CalibratedValue place_m[3];
+  CalibratedValue phase_centre_m[3];
   CalibratedValue time_offset_s;  ///< Latency of the reads' stamps relative to those of poses.
   double noise_rad = 0.0;
   std::size_t reads = 0;
@@ -58,7 +58,7 @@ void apply_calibration(const Calibration& calibration, std::vector<TagRead>& rea
 std::string to_yaml(const Calibration& calibration);
 
 struct CalibrationOptions {
-  double place_sigma_m = 0.1;         ///< Prior of each component of the position.
+  double phase_centre_sigma_m = 0.1;  ///< Prior of each component of the position.
   double time_offset_sigma_s = 0.05;  ///< Prior of the time offset.
   double most_time_offset_s = 0.5;    ///< Largest time offset searched.
   double max_pose_gap_s = 0.5;        ///< Reads between poses further apart are left out.

@@ -77,8 +77,8 @@ std::vector<Figure> figures() {
   for (int i = 0; i < 3; ++i) {
     all.push_back(
         {kNames[i], "mm",
-         [i](const AntennaCalibration& a) -> const CalibratedValue& { return a.place_m[i]; },
-         [i](AntennaCalibration& a) -> CalibratedValue& { return a.place_m[i]; }});
+         [i](const AntennaCalibration& a) -> const CalibratedValue& { return a.phase_centre_m[i]; },
+         [i](AntennaCalibration& a) -> CalibratedValue& { return a.phase_centre_m[i]; }});
   }
   all.push_back(
       {"latency", "ms",
@@ -122,7 +122,7 @@ double median_noise(const OfAntenna& all) {
 
 bool tells_anything(const AntennaCalibration& antenna) {
   return antenna.phase_sign < 0 || !antenna.offsets.empty() || antenna.time_offset_s.observable ||
-         std::any_of(std::begin(antenna.place_m), std::end(antenna.place_m),
+         std::any_of(std::begin(antenna.phase_centre_m), std::end(antenna.phase_centre_m),
                      [](const CalibratedValue& value) { return value.observable; });
 }
 

@@ -210,9 +210,9 @@ std::uint32_t index_of(const Material& material, std::vector<Material>& material
 }
 
 RadioScene make_scene(const Scene& scene, const std::vector<Material>& of_solid,
-                      double least_facet_m2) {
+                      double min_facet_m2) {
   RadioSceneOptions options;
-  options.least_facet_m2 = least_facet_m2;
+  options.min_facet_m2 = min_facet_m2;
   for (const Material& material : of_solid) {
     options.opaque.push_back(static_cast<char>(material.is_opaque));
   }
@@ -229,7 +229,7 @@ const std::vector<DiffractingEdge>& EdgesOnDemand::of(const RadioScene& waves) c
 RadioWorld radio_world(const Scene& scene, const RadioWorldOptions& options,
                        Diagnostics& diagnostics) {
   const std::vector<Material> of_solid = materials_for(scene, options, diagnostics);
-  RadioWorld world{make_scene(scene, of_solid, options.least_facet_m2),
+  RadioWorld world{make_scene(scene, of_solid, options.min_facet_m2),
                    {},
                    {},
                    {},

@@ -93,7 +93,7 @@ class EventStage::Impl {
     std::vector<bool> is_in_cycle(cycles_.size(), false);
     for (const std::size_t place : places) {
       const LogicalReader& reader = readers_[place];
-      if (reader.least_rssi_dbm && read.rssi_dbm < *reader.least_rssi_dbm) continue;
+      if (reader.min_rssi_dbm && read.rssi_dbm < *reader.min_rssi_dbm) continue;
       if (counts) presences_[place].take(read, listener_);
       for (std::size_t i = 0; i < cycles_.size(); ++i) {
         const std::vector<std::string>& of = cycles_[i].spec().logical_readers;

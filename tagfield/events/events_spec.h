@@ -36,8 +36,8 @@ struct EpcisContext {
 struct LogicalReader {
   std::string name;
   std::vector<std::string> antennas;
-  std::vector<std::string> readers;      ///< Readers, all of whose antennas belong to it as well.
-  std::optional<double> least_rssi_dbm;  ///< Weaker reads don't count.
+  std::vector<std::string> readers;    ///< Readers, all of whose antennas belong to it as well.
+  std::optional<double> min_rssi_dbm;  ///< Weaker reads don't count.
   EpcisContext epcis;
 };
 

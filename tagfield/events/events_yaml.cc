@@ -179,7 +179,7 @@ LogicalReader logical_reader_of(YamlMap map) {
   reader.name = map.at("name").text();
   reader.antennas = texts_at(map, "antennas");
   reader.readers = texts_at(map, "readers");
-  if (map.has("least_rssi_dbm")) reader.least_rssi_dbm = map.at("least_rssi_dbm").number();
+  if (map.has("min_rssi_dbm")) reader.min_rssi_dbm = map.at("min_rssi_dbm").number();
   reader.epcis = words_of(map);
   reader.epcis.read_point = uri_at(map, "read_point");
   reader.epcis.biz_location = uri_at(map, "biz_location");

@@ -225,7 +225,7 @@ void Tally::add_times(InventorySummary& summary) const {
   std::sort(firsts.begin(), firsts.end());
   std::sort(counts.begin(), counts.end());
   summary.read = static_cast<double>(firsts.size());
-  summary.least_read = summary.most_read = summary.read;
+  summary.min_read = summary.max_read = summary.read;
   if (!counts.empty()) {
     const std::size_t middle = counts.size() / 2;
     summary.median_reads =

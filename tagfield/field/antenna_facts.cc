@@ -9,7 +9,7 @@ bool meets_world(const AntennaParameters& antenna) { return physical(antenna) !=
 
 double nominal_range_m(const AntennaParameters& antenna) {
   const RadioModel* const radio = physical(antenna);
-  return radio == nullptr ? paper(antenna).range_m : most_range_m(*radio, *default_tag_model());
+  return radio == nullptr ? paper(antenna).range_m : max_range_m(*radio, *default_tag_model());
 }
 
 double nominal_frequency_hz(const AntennaParameters& antenna) {

@@ -25,7 +25,7 @@ double share_at(Time time, Time before, Time now) {
 
 double reach(const RadioModel& model, const TagPopulation& tags) {
   double most_m = 0.0;
-  for (const auto& kind : tags.models()) most_m = std::max(most_m, most_range_m(model, *kind));
+  for (const auto& kind : tags.models()) most_m = std::max(most_m, max_range_m(model, *kind));
   return most_m;
 }
 

@@ -26,9 +26,9 @@ inline constexpr double kMostPhaseNoise_rad = 2.0;
 inline const double kLeastEvidence = std::log(100.0);
 
 /// Σ log 2π f(e) of residuals in (−π, π], and the cost of the prior of their noise [rad], which was
-/// estimated from them and may be anywhere between `least_noise_rad` and kMostPhaseNoise_rad.
+/// estimated from them and may be anywhere between `min_noise_rad` and kMostPhaseNoise_rad.
 double evidence_of_residuals(const std::vector<double>& residuals, double noise_rad,
-                             double least_noise_rad);
+                             double min_noise_rad);
 
 /// Contribution of an offset that was estimated from `count` reads; at most 0.
 double evidence_of_offset(std::size_t count, double noise_rad);

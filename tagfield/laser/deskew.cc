@@ -33,7 +33,7 @@ MovedBeam moved_beam(const LaserScan& scan, std::size_t i, const RigidTransform&
   MovedBeam beam;
   beam.kind = beam_of(scan, scan.ranges_m[i]);
   if (beam.kind == Beam::kInvalid) return beam;
-  beam.measured_m = std::min(static_cast<double>(scan.ranges_m[i]), scan.most_range_m);
+  beam.measured_m = std::min(static_cast<double>(scan.ranges_m[i]), scan.max_range_m);
   const double angle = beam_angle(scan, i);
   const Eigen::Vector3d p_E =
       X_EL * Eigen::Vector3d(beam.measured_m * cosine(angle), beam.measured_m * sine(angle), 0.0);
@@ -158,8 +158,8 @@ class Resampling {
 
   /// Range as represented in the scan.
   [[nodiscard]] float said(double range_m) const {
-    if (range_m > scan_.most_range_m) return nothing_range(scan_.most_range_m);
-    return range_m >= scan_.least_range_m ? static_cast<float>(range_m) : 0.0F;
+    if (range_m > scan_.max_range_m) return nothing_range(scan_.max_range_m);
+    return range_m >= scan_.min_range_m ? static_cast<float>(range_m) : 0.0F;
   }
 
   const LaserScan& scan_;

@@ -17,9 +17,9 @@ struct LaserScan {
   Duration beam_interval{};  ///< Between neighbouring beams; 0 if all are simultaneous.
   double first_angle_rad = 0.0;
   double angle_step_rad = 0.0;  ///< > 0.
-  double least_range_m = 0.0;
-  double most_range_m = 0.0;
-  /// Finite. A return is in [least_range_m, most_range_m]; a larger value means no hit within
+  double min_range_m = 0.0;
+  double max_range_m = 0.0;
+  /// Finite. A return is in [min_range_m, max_range_m]; a larger value means no hit within
   /// range; 0 is an invalid beam (including too near).
   std::vector<float> ranges_m;
 };
@@ -28,13 +28,13 @@ struct LaserScan {
 enum class Beam { kReturn, kNothing, kInvalid };
 
 inline Beam beam_of(const LaserScan& scan, float range_m) {
-  if (range_m > static_cast<float>(scan.most_range_m)) return Beam::kNothing;
-  return range_m >= static_cast<float>(scan.least_range_m) && range_m > 0.0F ? Beam::kReturn
-                                                                             : Beam::kInvalid;
+  if (range_m > static_cast<float>(scan.max_range_m)) return Beam::kNothing;
+  return range_m >= static_cast<float>(scan.min_range_m) && range_m > 0.0F ? Beam::kReturn
+                                                                           : Beam::kInvalid;
 }
 
-/// Range that represents no hit within `most_range_m` (finite, up to 1e6 m).
-inline float nothing_range(double most_range_m) { return static_cast<float>(most_range_m) + 1.0F; }
+/// Range that represents no hit within `max_range_m` (finite, up to 1e6 m).
+inline float nothing_range(double max_range_m) { return static_cast<float>(max_range_m) + 1.0F; }
 
 /// Angle of beam `i` in L [rad].
 inline double beam_angle(const LaserScan& scan, std::size_t i) {

@@ -97,8 +97,8 @@ LaserScan empty_scan(const LaserParameters& laser, std::int64_t number) {
   scan.beam_interval = duration_from_seconds(laser.sweep_s) / steps;
   scan.first_angle_rad = laser.first_angle_rad;
   scan.angle_step_rad = (laser.last_angle_rad - laser.first_angle_rad) / steps;
-  scan.least_range_m = laser.least_range_m;
-  scan.most_range_m = laser.most_range_m;
+  scan.min_range_m = laser.min_range_m;
+  scan.max_range_m = laser.max_range_m;
   scan.ranges_m.resize(static_cast<std::size_t>(laser.beams));
   return scan;
 }
@@ -148,7 +148,7 @@ Beams beams_of(const LaserParameters& laser, const LaserScan& scan,
                const std::function<RigidTransform(Time)>& pose_at,
                const std::function<Obstacles(Time)>& obstacles_at) {
   // Slightly further, so that a wall exactly at the maximum range is hit.
-  const float most_m = nothing_range(laser.most_range_m);
+  const float most_m = nothing_range(laser.max_range_m);
   const Eigen::Matrix2d turn = rotation_in_plane(scan.angle_step_rad);
   Eigen::Vector2d direction_L(cosine(scan.first_angle_rad), sine(scan.first_angle_rad));
   Beams beams;
@@ -170,10 +170,10 @@ Beams beams_of(const LaserParameters& laser, const LaserScan& scan,
 
 /// Range that the laser reports for a true distance.
 float measured(const LaserParameters& laser, double distance_m, double noise_m) {
-  if (!(distance_m <= laser.most_range_m)) return nothing_range(laser.most_range_m);
+  if (!(distance_m <= laser.max_range_m)) return nothing_range(laser.max_range_m);
   const double range = distance_m + noise_m;
-  if (distance_m < laser.least_range_m || range < laser.least_range_m || range <= 0.0) return 0.0F;
-  if (range > laser.most_range_m) return nothing_range(laser.most_range_m);
+  if (distance_m < laser.min_range_m || range < laser.min_range_m || range <= 0.0) return 0.0F;
+  if (range > laser.max_range_m) return nothing_range(laser.max_range_m);
   return static_cast<float>(range);
 }
 
@@ -189,11 +189,10 @@ void check(const LaserParameters& laser) {
           laser.first_angle_rad);
   require(span > 0.0 && span <= kFullTurn, "laser: last_angle_rad",
           "greater than first_angle_rad, by 2π at most", laser.last_angle_rad);
-  require(laser.least_range_m >= 0.0, "laser: least_range_m", "0 or more", laser.least_range_m);
-  require(laser.most_range_m > laser.least_range_m && laser.most_range_m <= kMostMetres,
-          "laser: most_range_m",
-          fmt::format("greater than least_range_m and {} at most", kMostMetres),
-          laser.most_range_m);
+  require(laser.min_range_m >= 0.0, "laser: min_range_m", "0 or more", laser.min_range_m);
+  require(laser.max_range_m > laser.min_range_m && laser.max_range_m <= kMostMetres,
+          "laser: max_range_m", fmt::format("greater than min_range_m and {} at most", kMostMetres),
+          laser.max_range_m);
   require(laser.rate_hz > 0.0 && laser.rate_hz <= kMostRateHz, "laser: rate_hz",
           fmt::format("greater than 0 and {} at most", kMostRateHz), laser.rate_hz);
   require(laser.sigma_m >= 0.0 && laser.sigma_m <= kMostSigmaM, "laser: sigma_m",

@@ -20,8 +20,8 @@ struct LaserParameters {
   int beams = 720;
   double first_angle_rad = -1.570796327;
   double last_angle_rad = 1.570796327;
-  double least_range_m = 0.3;
-  double most_range_m = 30.0;
+  double min_range_m = 0.3;
+  double max_range_m = 30.0;
   double rate_hz = 30.0;
   double sigma_m = 0.01;  ///< Standard deviation of a range.
   double sweep_s = 0.0;   ///< From the first beam to the last; less than 1/rate_hz.

@@ -92,7 +92,7 @@ std::string text_of(const ScenarioWithWorld& loaded) {
                         material.conductivity_d, material.wall_m.value_or(-1.0),
                         material.crossing_db.value_or(-1.0), material.is_opaque);
   }
-  return text + fmt::format("{:.17g}", loaded.scenario.materials.least_facet_m2);
+  return text + fmt::format("{:.17g}", loaded.scenario.materials.min_facet_m2);
 }
 
 std::string text_of(const std::vector<RawParameter>& settings) {

@@ -94,7 +94,7 @@ PlannedAim planned_aim(const PlanAim& aim) {
   PlannedAim planned{Kind::kReadProbability, aim.read_probability, aim.share};
   if (aim.dwell_reads) planned = {Kind::kReads, *aim.dwell_reads, aim.share};
   if (aim.position_error_m) planned = {Kind::kPosition, *aim.position_error_m, aim.share};
-  planned.is_for_least_cost = aim.least == PlanAim::Least::kCost;
+  planned.is_for_least_cost = aim.minimize == PlanAim::Minimize::kCost;
   return planned;
 }
 
@@ -249,7 +249,7 @@ class Planner {
       break;
     }
     const bool is_reached = share && plan.layouts[plan.chosen].share >= *share;
-    if (is_reached && to_plan_.plan.aim.least == PlanAim::Least::kCost) choose_cheapest(plan);
+    if (is_reached && to_plan_.plan.aim.minimize == PlanAim::Minimize::kCost) choose_cheapest(plan);
     if (request_.exact_s > 0.0) solve_exactly(plan);
     plan.reaches_aim = !share || plan.layouts[plan.chosen].share >= *share;
     SelectionProblem of_all = problem_.selection;
@@ -299,7 +299,7 @@ class Planner {
   void solve_exactly(AntennaPlan& plan) {
     SelectionProblem of_count = problem_.selection;
     of_count.limits.antennas = choices_[plan.chosen].size();
-    if (to_plan_.plan.aim.least == PlanAim::Least::kCost) {
+    if (to_plan_.plan.aim.minimize == PlanAim::Minimize::kCost) {
       of_count.limits.cost = plan.layouts[plan.chosen].cost;
     }
     const ExactChoice exact = best_exactly(of_count, choices_[plan.chosen], request_.exact_s);

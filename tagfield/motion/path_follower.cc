@@ -75,7 +75,7 @@ BodyVelocity PathFollower::next(const PlanarPose& pose, double seconds) {
   const Eigen::Vector2d target = point_at(progress_ + style_.look_ahead_m);
   const Eigen::Vector2d to_target = target - position;
   const double bearing = wrap_to_pi(arc_tangent(to_target.y(), to_target.x()) - pose.yaw);
-  const double most_turn = style_.most_turn_rad_s;
+  const double most_turn = style_.max_turn_rad_s;
   if (std::abs(bearing) > kBeginTurnInPlace) turning_in_place_ = true;
   if (turning_in_place_ && std::abs(bearing) < kEndTurnInPlace) turning_in_place_ = false;
   if (turning_in_place_) {

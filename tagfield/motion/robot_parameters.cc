@@ -140,7 +140,7 @@ void read_driving(Reader& reader, RobotParameters& robot) {
   reader.points("waypoint", robot.waypoints);
   reader.positive("speed", robot.style.speed_m_s);
   reader.positive("look_ahead", robot.style.look_ahead_m);
-  robot.style.most_turn_rad_s = robot.driver.limits.turn_rad_s;
+  robot.style.max_turn_rad_s = robot.driver.limits.turn_rad_s;
 }
 
 void read_odometry(Reader& reader, RobotParameters& robot) {

@@ -46,8 +46,8 @@ struct ScanReport {
   double first_angle_rad = 0.0;
   double last_angle_rad = 0.0;
   double interval_s = 0.0;  ///< To the next reading.
-  double least_range_m = 0.0;
-  double most_range_m = 0.0;
+  double min_range_m = 0.0;
+  double max_range_m = 0.0;
   std::vector<float> ranges_m;
 };
 

@@ -34,9 +34,9 @@ struct DriveGeometry {
 
 /// Limits and style of driving; the defaults suit a P3-AT.
 struct DrivingStyle {
-  double speed_m_s = 0.3;        ///< Along the path.
-  double most_turn_rad_s = 1.0;  ///< Limit of |ω|.
-  double look_ahead_m = 0.5;     ///< How far ahead on the path the robot aims.
+  double speed_m_s = 0.3;       ///< Along the path.
+  double max_turn_rad_s = 1.0;  ///< Limit of |ω|.
+  double look_ahead_m = 0.5;    ///< How far ahead on the path the robot aims.
 };
 
 /// Eqs. (7) and (8): v = r(ω_R + ω_L)/2, ω = r(ω_R − ω_L)/d.

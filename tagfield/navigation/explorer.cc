@@ -49,7 +49,7 @@ std::vector<Frontier> Explorer::open_ones(const OccupancyGrid& map, const Occupa
     if (!open.empty()) return open;
     stage_ = Stage::kGaps;
   }
-  options.least_size_m = std::min(options.least_size_m, options_.finest_m);
+  options.min_size_m = std::min(options.min_size_m, options_.finest_m);
   return frontiers(map, drivable, pose_M, looks_, options);
 }
 

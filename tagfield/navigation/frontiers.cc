@@ -278,7 +278,7 @@ std::vector<Frontier> frontiers(const OccupancyGrid& map, const OccupancyGrid& d
   const Spread ways = spread(floor, floor.grid.cell_of(robot));
   std::vector<Frontier> found;
   for (const Cells& cells : connected_frontiers(seen)) {
-    if (static_cast<double>(cells.size()) * map.resolution_m < options.least_size_m) continue;
+    if (static_cast<double>(cells.size()) * map.resolution_m < options.min_size_m) continue;
     const std::optional<Frontier> frontier =
         frontier_of({seen, floor, ways, size.least_m(), options.sight_m}, cells, looks);
     if (frontier) found.push_back(*frontier);

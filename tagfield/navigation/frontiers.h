@@ -15,8 +15,8 @@ namespace tagfield {
 struct FrontierOptions {
   double radius_m = 0.36;  ///< Of the robot's footprint.
   double margin_m = 0.05;
-  double least_size_m = 0.4;  ///< Frontiers shorter than this are not worth the drive.
-  double sight_m = 8.0;       ///< The range up to which the laser is trusted.
+  double min_size_m = 0.4;  ///< Frontiers shorter than this are not worth the drive.
+  double sight_m = 8.0;     ///< The range up to which the laser is trusted.
 };
 
 /// A look at a point.

@@ -21,7 +21,7 @@ void add_blind(const LaserScan& scan, std::size_t begin, std::size_t end, ScanIn
   // One point every 3° leaves no gap that matters at a range of decimetres.
   const auto stride = static_cast<std::size_t>(std::max(1.0, 0.05 / scan.angle_step_rad));
   for (std::size_t i = begin; i < end; i += stride) {
-    seen.may_be_M.push_back(transformed(seen.q_ML, polar(beam_angle(scan, i), scan.least_range_m)));
+    seen.may_be_M.push_back(transformed(seen.q_ML, polar(beam_angle(scan, i), scan.min_range_m)));
   }
 }
 
@@ -63,8 +63,8 @@ void place_returns(const LaserScan& scan, const PlanarPose& pose_M, const BodyVe
 
 bool is_sound(const LaserScan& scan) {
   return std::isfinite(scan.first_angle_rad) && std::isfinite(scan.angle_step_rad) &&
-         scan.angle_step_rad > 0.0 && std::isfinite(scan.least_range_m) &&
-         std::isfinite(scan.most_range_m);
+         scan.angle_step_rad > 0.0 && std::isfinite(scan.min_range_m) &&
+         std::isfinite(scan.max_range_m);
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ ScanInMap scan_in_map(const LaserScan& scan, const RigidTransform& X_RL, const P
   seen.angle_step_rad = scan.angle_step_rad;
   for (const float range : scan.ranges_m) {
     const Beam beam = beam_of(scan, range);
-    const double clear = beam == Beam::kNothing ? scan.most_range_m : static_cast<double>(range);
+    const double clear = beam == Beam::kNothing ? scan.max_range_m : static_cast<double>(range);
     seen.clear_m.push_back(beam == Beam::kInvalid ? 0.0 : clear);
   }
   place_returns(scan, pose_M, velocity, seen);

@@ -43,7 +43,7 @@ ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double
   points.sensor_R = position_of(q_RL);
   if (!std::isfinite(scan.first_angle_rad) || !std::isfinite(scan.angle_step_rad)) return points;
   points.ends_R.reserve(scan.ranges_m.size());
-  const double clear_m = std::min(most_clear_m, scan.most_range_m);
+  const double clear_m = std::min(most_clear_m, scan.max_range_m);
   double angle = scan.first_angle_rad;
   for (const float range : scan.ranges_m) {
     const Eigen::Vector2d direction_L(cosine(angle), sine(angle));

@@ -71,7 +71,7 @@ std::vector<char> table_of_sides(const std::vector<Facet>& facets) {
 }
 
 std::vector<char> checked(const RadioSceneOptions& options, std::size_t collisions) {
-  require(options.least_facet_m2 >= 0.0, "least_facet_m2", "at least 0", options.least_facet_m2);
+  require(options.min_facet_m2 >= 0.0, "min_facet_m2", "at least 0", options.min_facet_m2);
   if (options.opaque.empty()) return std::vector<char>(collisions, 0);
   if (options.opaque.size() != collisions) {
     throw Error(fmt::format("opaque must be empty or say it of each of {} collisions, has {}",
@@ -90,7 +90,7 @@ RadioScene::RadioScene(const Scene& scene, const RadioSceneOptions& options)
     if (std::holds_alternative<Plane>(collision.shape)) {
       add_plane(collision, solid);
     } else {
-      add_solid(collision, solid, options.least_facet_m2);
+      add_solid(collision, solid, options.min_facet_m2);
     }
   }
   sides_ = table_of_sides(facets_);

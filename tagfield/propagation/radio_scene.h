@@ -41,7 +41,7 @@ struct Facet {
 
 struct RadioSceneOptions {
   /// Smaller flat pieces don't reflect: below about a squared wavelength they scatter instead.
-  double least_facet_m2 = 0.1;
+  double min_facet_m2 = 0.1;
   /// By collision index: nonzero for solids that block waves (metal). Empty if there are none.
   std::vector<char> opaque;
 };
@@ -67,7 +67,7 @@ class RadioScene {
  public:
   /// Keeps no reference to `scene`. Throws Error, naming the collision, where RayScene does. Also
   /// throws Error if `opaque` is neither empty nor as long as the scene's collisions, or if
-  /// `least_facet_m2` is not a number ≥ 0.
+  /// `min_facet_m2` is not a number ≥ 0.
   explicit RadioScene(const Scene& scene, const RadioSceneOptions& options = {});
 
   [[nodiscard]] const std::vector<Facet>& facets() const { return facets_; }

@@ -79,7 +79,7 @@ std::shared_ptr<const TagModel> default_tag_model() {
   return std::make_shared<const TagModel>(tag);
 }
 
-double most_range_m(const RadioModel& model, const TagModel& tag) {
+double max_range_m(const RadioModel& model, const TagModel& tag) {
   const double lambda_m = wavelength(model.plan.carriers_hz.front());
   const double radiated_dbm =
       model.transmit_power_dbm - model.cable_loss_db + peak_dbi(model.antenna);

@@ -144,6 +144,6 @@ std::shared_ptr<const TagModel> default_tag_model();
 /// Upper bound on the distance at which tags with the gain and sensitivity of `tag` can be read
 /// [m]: the free-space range at peak gains, with all paths adding up to twice the direct path's
 /// field.
-double most_range_m(const RadioModel& model, const TagModel& tag);
+double max_range_m(const RadioModel& model, const TagModel& tag);
 
 }  // namespace tagfield

@@ -84,7 +84,7 @@ ComparedOutcome outcome_of(const TagRow& row) {
     outcome.verdict = located == 1 ? "located" : outcome_words(first);
   }
   if (!first.estimate.candidates.empty() && first.estimate.verdict == Verdict::kLocated) {
-    outcome.place_m = first.estimate.candidates.front().p_WT;
+    outcome.position_m = first.estimate.candidates.front().p_WT;
   }
   return outcome;
 }
@@ -232,7 +232,7 @@ std::string comparison_to_json(const RunComparison& comparison) {
       one["runs"].push_back({{"reads", run.reads},
                              {"verdict", run.verdict},
                              {"error_m", json_of(run.error_m)},
-                             {"estimate_m", json_of(run.place_m)}});
+                             {"estimate_m", json_of(run.position_m)}});
     }
     json["tags"].push_back(std::move(one));
   }

@@ -19,7 +19,7 @@ struct ComparedOutcome {
   std::size_t reads = 0;
   std::string verdict;            ///< In two or three words; "not there" if only in the other run.
   std::optional<double> error_m;  ///< Mean over the seeds that have one.
-  std::optional<Eigen::Vector3d> place_m;  ///< The estimate of the first seed.
+  std::optional<Eigen::Vector3d> position_m;  ///< The estimate of the first seed.
 };
 
 struct ComparedTag {

@@ -138,8 +138,8 @@ Extent extent_of(const RunComparison& comparison) {
   const double reach = certain.isEmpty() ? 1e9 : std::max(certain.sizes().maxCoeff(), 8.0);
   for (const ComparedTag& tag : comparison.tags) {
     for (const ComparedOutcome& run : tag.runs) {
-      if (!run.place_m) continue;
-      const Eigen::Vector2d place = run.place_m->head<2>();
+      if (!run.position_m) continue;
+      const Eigen::Vector2d place = run.position_m->head<2>();
       if (certain.isEmpty() || certain.exteriorDistance(place) < reach) extent.extend(place);
     }
   }
@@ -153,13 +153,14 @@ void draw_compared_tag(Svg& svg, const MapView& map, const RunComparison& compar
                 clean_text(tag.tag) + ", true position");
   }
   const auto& [first, second] = tag.runs;
-  if (first.place_m && second.place_m) {
-    add_line(svg, on_map(map, *first.place_m), on_map(map, *second.place_m), styled("whisker"));
+  if (first.position_m && second.position_m) {
+    add_line(svg, on_map(map, *first.position_m), on_map(map, *second.position_m),
+             styled("whisker"));
   }
   for (std::size_t run = 0; run < 2; ++run) {
     const ComparedOutcome& outcome = tag.runs[run];
-    if (!outcome.place_m) continue;
-    add_circle(svg, on_map(map, *outcome.place_m), run == 0 ? 5.5 : 3.5, styled(kDots[run]),
+    if (!outcome.position_m) continue;
+    add_circle(svg, on_map(map, *outcome.position_m), run == 0 ? 5.5 : 3.5, styled(kDots[run]),
                fmt::format("{} in {}{}", clean_text(tag.tag), clean_text(comparison.runs[run].name),
                            outcome.error_m ? ": off by " + spoken_length(*outcome.error_m) : ""));
   }
@@ -168,7 +169,7 @@ void draw_compared_tag(Svg& svg, const MapView& map, const RunComparison& compar
 Figure places_figure(const RunComparison& comparison, const std::vector<Silhouette>& geometry) {
   Figure figure{"compared_places", "", "Estimates of both runs", "", {}, ""};
   const bool any = std::any_of(comparison.tags.begin(), comparison.tags.end(), [](const auto& tag) {
-    return tag.runs[0].place_m || tag.runs[1].place_m;
+    return tag.runs[0].position_m || tag.runs[1].position_m;
   });
   const Extent extent = extent_of(comparison);
   if (!any || extent.isEmpty()) {
@@ -189,7 +190,7 @@ Figure places_figure(const RunComparison& comparison, const std::vector<Silhouet
   }
   end_clip(figure.svg);
   for (const ComparedTag& tag : comparison.tags) {
-    const auto place = tag.truth_m ? tag.truth_m : tag.runs[0].place_m;
+    const auto place = tag.truth_m ? tag.truth_m : tag.runs[0].position_m;
     if (place && comparison.tags.size() <= kMostRows) {
       take_place(map, on_map(map, *place), 7.0);
       draw_label(figure.svg, map, on_map(map, *place), shortened(tag.tag, 12));
@@ -205,7 +206,7 @@ Figure places_figure(const RunComparison& comparison, const std::vector<Silhouet
   figure.data = "tag,run,x_m,y_m,z_m\n";
   for (const ComparedTag& tag : comparison.tags) {
     for (std::size_t run = 0; run < 2; ++run) {
-      if (const auto& p = tag.runs[run].place_m) {
+      if (const auto& p = tag.runs[run].position_m) {
         add_data(figure.data, tag.tag, comparison.runs[run].name, p->x(), p->y(), p->z());
       }
     }

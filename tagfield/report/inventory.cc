@@ -32,8 +32,8 @@ void add_zones(std::vector<ZoneInventory>& mean, const std::vector<ZoneInventory
 void add(const InventorySummary& run, double weight, InventorySummary& mean) {
   mean.read += weight * run.read;
   mean.reads += weight * run.reads;
-  mean.least_read = std::min(mean.least_read, run.least_read);
-  mean.most_read = std::max(mean.most_read, run.most_read);
+  mean.min_read = std::min(mean.min_read, run.min_read);
+  mean.max_read = std::max(mean.max_read, run.max_read);
   for (auto rows : {&InventorySummary::readers, &InventorySummary::antennas}) {
     add_rows(mean.*rows, run.*rows, weight, &InventoryShare::tags, &InventoryShare::only,
              &InventoryShare::reads);

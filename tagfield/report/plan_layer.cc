@@ -78,7 +78,7 @@ void add_places(const CsvTable& table, Json& json) {
 bool is_plan_folder(const std::string& folder) {
   std::error_code unknown;
   return std::filesystem::is_regular_file(in_folder(folder, "plan.json"), unknown) &&
-         std::filesystem::is_regular_file(in_folder(folder, "plan_places.csv"), unknown);
+         std::filesystem::is_regular_file(in_folder(folder, "plan_positions.csv"), unknown);
 }
 
 std::string plan_layer_to_json(const std::string& folder) {
@@ -95,7 +95,7 @@ std::string plan_layer_to_json(const std::string& folder) {
   }
   const JsonLocation chosen = member(plan, "chosen_antennas");
   json["chosen"] = number_of(json["layouts"], whole_at(chosen), chosen);
-  add_places(read_csv(in_folder(folder, "plan_places.csv")), json);
+  add_places(read_csv(in_folder(folder, "plan_positions.csv")), json);
   const ColorBands bands = probability_bands();
   json["edges"] = bands.edges;
   json["colors"] = bands.colors;

@@ -7,7 +7,7 @@
 
 namespace tagfield {
 
-/// Whether `folder` is that of a plan: one with plan.json and plan_places.csv.
+/// Whether `folder` is that of a plan: one with plan.json and plan_positions.csv.
 bool is_plan_folder(const std::string& folder);
 
 /// The plan in `folder` as JSON text: what is counted, the layouts with their antennas [m, world],

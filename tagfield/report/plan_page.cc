@@ -361,7 +361,8 @@ std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figure
           hard_table(plan) + sensitivity_table(plan) + "<h2>Tables</h2>\n<p>" +
           data_link("plan_layouts.csv", "layouts", plan_layouts_to_csv(plan)) + " · " +
           data_link("plan_antennas.csv", "antennas", plan_antennas_to_csv(plan)) + " · " +
-          data_link("plan_places.csv", "places", plan_positions_to_csv(plan)) + " (CSV)</p>\n";
+          data_link("plan_positions.csv", "positions", plan_positions_to_csv(plan)) +
+          " (CSV)</p>\n";
   return html +
          "</main>\n<footer>\n<p>Made by Tagfield; the same tables are beside this page, and "
          "layout.yaml is the chosen layout as a scenario.</p>\n</footer>\n" +

@@ -76,8 +76,8 @@ struct InventorySummary {
   double duration_s = 0.0;
   double read = 0.0;  ///< Tags read at least once.
   double reads = 0.0;
-  double least_read = 0.0;  ///< Minimum over the runs; equal to `read` for one run.
-  double most_read = 0.0;
+  double min_read = 0.0;  ///< Minimum over the runs; equal to `read` for one run.
+  double max_read = 0.0;
   std::optional<double> median_reads;  ///< Of the tags that were read.
   std::vector<ReachedShare> reached;   ///< 50, 95 and 99 %.
   std::vector<InventoryMoment> curve;  ///< Of the first run; time and share are non-decreasing.

@@ -121,8 +121,8 @@ constexpr auto fields(const InventoryWithout* /*of*/) {
 constexpr auto fields(const InventorySummary* /*of*/) {
   using S = InventorySummary;
   return std::tuple(std::pair("tags", &S::tags), std::pair("duration_s", &S::duration_s),
-                    std::pair("read", &S::read), std::pair("least_read", &S::least_read),
-                    std::pair("most_read", &S::most_read), std::pair("reads", &S::reads),
+                    std::pair("read", &S::read), std::pair("min_read", &S::min_read),
+                    std::pair("max_read", &S::max_read), std::pair("reads", &S::reads),
                     std::pair("median_reads", &S::median_reads), std::pair("reached", &S::reached),
                     std::pair("readers", &S::readers), std::pair("antennas", &S::antennas),
                     std::pair("zones", &S::zones), std::pair("levels", &S::levels),

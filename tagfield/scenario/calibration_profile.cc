@@ -46,11 +46,11 @@ AntennaCalibration antenna_of(YamlMap map) {
     antenna.phase_sign = sign.number() > 0.0 ? 1 : -1;
   }
   antenna.noise_rad = map.number("noise_rad", 0.0, NumberRange::kNotNegative);
-  if (map.has("place_m")) {
-    YamlMap place(map.at("place_m"));
-    antenna.place_m[0] = value_of(YamlMap(place.at("x")), kMostPlace);
-    antenna.place_m[1] = value_of(YamlMap(place.at("y")), kMostPlace);
-    antenna.place_m[2] = value_of(YamlMap(place.at("z")), kMostPlace);
+  if (map.has("phase_centre_m")) {
+    YamlMap place(map.at("phase_centre_m"));
+    antenna.phase_centre_m[0] = value_of(YamlMap(place.at("x")), kMostPlace);
+    antenna.phase_centre_m[1] = value_of(YamlMap(place.at("y")), kMostPlace);
+    antenna.phase_centre_m[2] = value_of(YamlMap(place.at("z")), kMostPlace);
     place.finish();
   }
   if (map.has("time_offset_s")) {

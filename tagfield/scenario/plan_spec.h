@@ -64,8 +64,8 @@ struct PlanAim {
   /// that reaches it with the least is chosen. None: the best layout within the limits.
   std::optional<double> share;
   /// What to minimize once the share is reached.
-  enum class Least { kAntennas, kCost };
-  Least least = Least::kAntennas;
+  enum class Minimize { kAntennas, kCost };
+  Minimize minimize = Minimize::kAntennas;
 };
 
 struct PlanSpec {

@@ -45,7 +45,7 @@ WorldSpec world_of(YamlMap map, bool is_given) {
     world.search_paths.push_back(resolve_path(folder));
   }
   world.skip_missing = map.boolean("skip_missing", world.skip_missing);
-  for (const char* radio : {"materials", "default_material", "least_facet_m2"}) {
+  for (const char* radio : {"materials", "default_material", "min_facet_m2"}) {
     static_cast<void>(map.has(radio));  // radio_world_options_of() reads them.
   }
   map.finish();
@@ -79,8 +79,7 @@ RobotSpec robot_of(YamlMap map, const RadioWorldOptions& world) {
   robot.drive.wheel_radius_m = map.number("wheel_radius_m", robot.drive.wheel_radius_m, kPositive);
   robot.drive.track_m = map.number("track_m", robot.drive.track_m, kPositive);
   robot.style.speed_m_s = map.number("speed_m_s", robot.style.speed_m_s, kPositive);
-  robot.style.most_turn_rad_s =
-      map.number("most_turn_rad_s", robot.style.most_turn_rad_s, kPositive);
+  robot.style.max_turn_rad_s = map.number("max_turn_rad_s", robot.style.max_turn_rad_s, kPositive);
   robot.style.look_ahead_m = map.number("look_ahead_m", robot.style.look_ahead_m, kPositive);
   for (const YamlValue& waypoint : map.list("waypoints")) {
     robot.waypoints.push_back(waypoint_of(waypoint));

@@ -25,7 +25,7 @@ struct Lane {
   double heading_rad = 0.0;                         ///< Direction of travel, from x towards y.
   double lateral_sigma_m = 0.1;                     ///< Of a tag's lateral position.
   double heading_sigma_rad = 0.02;                  ///< Of a tag's direction.
-  bool both_ways = false;                           ///< Whether tags may also move backwards.
+  bool bidirectional = false;                       ///< Whether tags may also move backwards.
 };
 
 /// How a track is smoothed once its start is found.

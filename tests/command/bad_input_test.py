@@ -28,7 +28,7 @@ robots:
     wheel_radius_m: 0.1
     track_m: 0.4
     speed_m_s: 0.5
-    most_turn_rad_s: 1.0
+    max_turn_rad_s: 1.0
     look_ahead_m: 0.3
     waypoints: [[1, 0], [1, 1]]
 antennas:
@@ -343,7 +343,7 @@ ANY = None
 NUMBERS = (  # a line of the base scenario, and the numbers that it accepts
     ("time_step_s: 0.01", POSITIVE), ("duration_s: 1", POSITIVE), ("real_time: 0", NOT_NEGATIVE),
     ("wheel_radius_m: 0.1", POSITIVE), ("track_m: 0.4", POSITIVE),
-    ("    speed_m_s: 0.5", POSITIVE), ("most_turn_rad_s: 1.0", POSITIVE),
+    ("    speed_m_s: 0.5", POSITIVE), ("max_turn_rad_s: 1.0", POSITIVE),
     ("look_ahead_m: 0.3", POSITIVE), ("rate_hz: 15", POSITIVE), ("frequency_hz: 865.7e6", POSITIVE),
     ("phase_offset_rad: 0", ANY), ("phase_noise_rad: 0.1", NOT_NEGATIVE),
     ("rssi_noise: 0.01", NOT_NEGATIVE), ("range_m: 7", POSITIVE), ("range_sigma: 0.05",
@@ -660,7 +660,7 @@ without: [diffuse]
 world:
   path: hall.sdf
   default_material: concrete
-  least_facet_m2: 0.1
+  min_facet_m2: 0.1
   materials: {walls: brick}
 materials:
   - {name: foam, permittivity: 1.05, conductivity_s_m: 0.001, wall_m: 0.1, crossing_db: 1}
@@ -712,7 +712,7 @@ def physics_that_cannot_be(context):
             ("without: [diffuse]", "without: [difuse]", "did you mean 'diffuse'"),
             ("default_material: concrete", "default_material: concret",
              "did you mean 'concrete'"),
-            ("least_facet_m2: 0.1", "least_facet_m2: -1", "0 or more"),
+            ("min_facet_m2: 0.1", "min_facet_m2: -1", "0 or more"),
             ("{walls: brick}", "{walls: brik}", "did you mean 'brick'"),
             ("permittivity: 1.05", "permittivity: -1.05", "from 1 to 10000, is -1.05"),
             ("conductivity_s_m: 0.001", "conductivity_s_m: -3", "0 or more, is -3"),

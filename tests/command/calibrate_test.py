@@ -63,7 +63,7 @@ def a_calibration_finds_the_faults_and_takes_them_out(context):
     result = context.run_well("calibrate", reads, "--poses", poses, "--tags", tags, "--out", profile)
     check_in("phase grows with distance", result.out, "calibrate")
     text = profile.read_text(encoding="utf-8")
-    for word in ("kind: calibration", "place_m", "time_offset_s", "noise_rad", "offsets"):
+    for word in ("kind: calibration", "phase_centre_m", "time_offset_s", "noise_rad", "offsets"):
         check_in(word, text, "the profile")
     known = {row["tag"] for row in read_csv(tags)}
     common = ("localize", reads, "--poses", poses, "--scenario",
@@ -137,7 +137,7 @@ def a_profile_by_hand_is_applied(context):
     # Half a metre along the antenna's x axis: poses must move by that.
     run = context.simulate("paper_warehouse", "--no-page")
     profile = context.write("hand.yaml", "name: by hand\nkind: calibration\nantennas:\n  mobile:\n"
-                                         "    place_m: {x: {value: 0.5}, y: {value: 0},"
+                                         "    phase_centre_m: {x: {value: 0.5}, y: {value: 0},"
                                          " z: {value: 0}}\n")
     out = context.folder / "moved"
     context.run_well("localize", run / "reads.csv", "--poses", run / "antenna_poses.csv",

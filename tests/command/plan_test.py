@@ -54,7 +54,7 @@ def a_plan_is_a_folder_and_its_layout_runs(context):
         check(layout["score"] <= layout["bound"] + 1e-9, "bound")
     check_equal(len(read_csv(out / "plan_layouts.csv")), 3, "rows of layouts")
     check_equal(len(read_csv(out / "plan_antennas.csv")), 6, "rows of antennas")
-    check_equal(len(read_csv(out / "plan_places.csv")), 30, "rows of places")
+    check_equal(len(read_csv(out / "plan_positions.csv")), 30, "rows of places")
     before = files_in(out)
     # Cached links give the same result, with any number of threads.
     context.run_well(*arguments, "--threads", "1")
@@ -80,7 +80,7 @@ def aims_at_reads_and_at_places(context):
                      context.folder / "room")
     plan = read_json(context.folder / "room/plan.json")
     check_equal((plan["chosen_antennas"], plan["reaches_aim"], plan["check"]["inside"]), (3, True, 2), "room")
-    places = read_csv(context.folder / "room/plan_places.csv")
+    places = read_csv(context.folder / "room/plan_positions.csv")
     # With two antennas, each tag has two possible positions.
     check(all(place["error_m_2"] == "" for place in places), "errors by two antennas")
     check(all(0.0 < float(place["error_m_3"]) < 0.03 for place in places), "errors by three")

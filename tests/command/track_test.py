@@ -159,7 +159,7 @@ def bad_input_is_told_in_one_line(context):
     for arguments, says in (
             ((reads,), "track: reads as CSV need --poses FILE"),
             ((reads, "--poses", poses, "--seeds", 2), "--seeds can only be used with a scenario"),
-            ((reads, "--poses", poses, "--both-ways"), "--both-ways can only be used with a lane"),
+            ((reads, "--poses", poses, "--bidirectional"), "--bidirectional can only be used with a lane"),
             ((reads, "--poses", poses, "--speed-range", 3, 1), "min_speed_m_s, 3 m/s, is over"),
             ((reads, "--poses", poses, "--method", "kalman"), "kalman"),
             ((context.shipped("conveyor"), "--poses", poses), "can only be used with reads"),

@@ -227,7 +227,7 @@ def limits_are_the_robots(context):
     limits = {name: number_in(context, "motion/speed_limits.h", name)
               for name in ("speed_m_s", "turn_rad_s", "turn_acceleration_rad_s2")}
     laser = {name: number_in(context, "laser/simulated_laser.h", name)
-             for name in ("least_range_m", "most_range_m")}
+             for name in ("min_range_m", "max_range_m")}
     follow, behave = nav2["controller_server"]["FollowPath"], nav2["behavior_server"]
     check_equal(follow["desired_linear_vel"], robot["speed_m_s"], "speed")
     follower = scenario(context, "paper_warehouse")["robots"][0]  # Autonomous robots plan their own paths.
@@ -242,10 +242,10 @@ def limits_are_the_robots(context):
         inflation = nav2[name]["inflation_layer"]["inflation_radius"]
         check(abs(inflation - sum(driver.values())) < 1e-9, f"{name}: inflation {inflation}")
         scan = nav2[name]["obstacle_layer"]["scan"]
-        check(scan["obstacle_max_range"] <= scan["raytrace_max_range"] <= laser["most_range_m"], name)
+        check(scan["obstacle_max_range"] <= scan["raytrace_max_range"] <= laser["max_range_m"], name)
     check_equal((nav2["amcl"]["laser_min_range"], nav2["amcl"]["laser_max_range"]),
-                (laser["least_range_m"], laser["most_range_m"]), "amcl's laser")
-    check_equal(slam["max_laser_range"], laser["most_range_m"], "slam_toolbox's laser")
+                (laser["min_range_m"], laser["max_range_m"]), "amcl's laser")
+    check_equal(slam["max_laser_range"], laser["max_range_m"], "slam_toolbox's laser")
     start = nav2["amcl"]["initial_pose"]
     check_equal([start["x"], start["y"], start["yaw"]], robot["start"], "where the robot starts")
 

@@ -10,7 +10,7 @@
 ///         <made_of name="office::link::door">my_foam</made_of>
 ///         <default_material>concrete</default_material> <!-- where neither a rule nor a name
 ///                                                            decides; concrete -->
-///         <least_facet_m2>0.1</least_facet_m2> <!-- m²; smaller facets don't reflect; 0.1 -->
+///         <min_facet_m2>0.1</min_facet_m2> <!-- m²; smaller facets don't reflect; 0.1 -->
 ///         <material name="my_foam">            <!-- besides those of channel/material.h -->
 ///           <permittivity>1.2</permittivity>   <!-- relative, at f GHz: this · f^exponent; 1 -->
 ///           <permittivity_exponent>0</permittivity_exponent>    <!-- 0 -->

@@ -153,7 +153,7 @@ class Robot {
     const std::optional<LaserReading> reading = laser_->read(run_->last, now);
     if (!reading) return;
     tell(ScanReport{reading->stamp, reading->first_angle_rad, reading->last_angle_rad,
-                    reading->interval_s, reading->least_range_m, reading->most_range_m,
+                    reading->interval_s, reading->min_range_m, reading->max_range_m,
                     reading->ranges_m});
   }
 

@@ -67,7 +67,7 @@ void add_materials(const Scenario& scenario, XMLElement* world) {
     element->SetAttribute("name", rule.name.c_str());
   }
   add(plugin, "default_material", options.otherwise);
-  add(plugin, "least_facet_m2", options.least_facet_m2);
+  add(plugin, "min_facet_m2", options.min_facet_m2);
 }
 
 }  // namespace tagfield::gazebo_world_internal

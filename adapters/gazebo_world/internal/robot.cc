@@ -42,7 +42,7 @@ XMLElement* require(XMLElement* found, const std::string& model_file, const std:
 void set_way(XMLElement* plugin, const RobotSpec& robot, bool finds_way) {
   set(plugin, "speed", fmt::format("{}", robot.style.speed_m_s));
   set(plugin, "look_ahead", fmt::format("{}", robot.style.look_ahead_m));
-  set(plugin, "max_turn", fmt::format("{}", robot.style.most_turn_rad_s));
+  set(plugin, "max_turn", fmt::format("{}", robot.style.max_turn_rad_s));
   if (XMLElement* const old = plugin->FirstChildElement("path")) plugin->DeleteChild(old);
   if (robot.waypoints.empty() || finds_way) return;
   XMLElement* const path = add(plugin, "path");

@@ -127,7 +127,7 @@ world:
   path: hall.world
   materials: {"hall*": foam, door: glass}
   default_material: wood
-  least_facet_m2: 0.25
+  min_facet_m2: 0.25
 antennas:
   - {name: one, pose: [3, -4, 2], channel_plan: etsi_high, transmit_power_dbm: 27.3, tari_us: 12.5,
      inventory: gen2}
@@ -189,7 +189,7 @@ TEST(GazeboWorld, SaysWhatItIsMadeOfOnce) {
   EXPECT_TRUE(has("<made_of name=\"hall*\">foam</made_of>"));
   EXPECT_TRUE(has("<made_of name=\"door\">glass</made_of>"));
   EXPECT_TRUE(has("<default_material>wood</default_material>"));
-  EXPECT_TRUE(has("<least_facet_m2>0.25</least_facet_m2>"));
+  EXPECT_TRUE(has("<min_facet_m2>0.25</min_facet_m2>"));
   EXPECT_TRUE(has("<material name=\"foam\">"));
   EXPECT_TRUE(has("<wall_m>0.02</wall_m>"));
 }

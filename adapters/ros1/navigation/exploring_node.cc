@@ -95,7 +95,7 @@ ExplorerOptions ExploringNode::explorer_options(const NodeParameters& parameters
   FrontierOptions& frontiers = options.frontiers;
   frontiers.radius_m = parameters.positive("radius", frontiers.radius_m);
   frontiers.margin_m = parameters.positive("margin", frontiers.margin_m);
-  frontiers.least_size_m = parameters.positive("min_frontier_size", frontiers.least_size_m);
+  frontiers.min_size_m = parameters.positive("min_frontier_size", frontiers.min_size_m);
   frontiers.sight_m = parameters.positive("sight", frontiers.sight_m);
   options.finest_m = parameters.positive("min_gap_size", options.finest_m);
   return options;

@@ -47,8 +47,8 @@ void check_angles(const sensor_msgs::LaserScan& message) {
 /// Beyond range_max there was no return; 0 is invalid.
 float range_of(float range, const LaserScan& scan) {
   if (std::isnan(range)) return 0.0F;
-  if (range >= static_cast<float>(scan.most_range_m)) return nothing_range(scan.most_range_m);
-  return range < static_cast<float>(scan.least_range_m) ? 0.0F : range;
+  if (range >= static_cast<float>(scan.max_range_m)) return nothing_range(scan.max_range_m);
+  return range < static_cast<float>(scan.min_range_m) ? 0.0F : range;
 }
 
 void check_size(const nav_msgs::OccupancyGrid& message) {
@@ -86,8 +86,8 @@ LaserScan scan_of(const sensor_msgs::LaserScan& message) {
   scan.beam_interval = duration_from_seconds(static_cast<double>(message.time_increment));
   scan.first_angle_rad = static_cast<double>(message.angle_min);
   scan.angle_step_rad = static_cast<double>(message.angle_increment);
-  scan.least_range_m = static_cast<double>(message.range_min);
-  scan.most_range_m = std::min(kMostRange, static_cast<double>(message.range_max));
+  scan.min_range_m = static_cast<double>(message.range_min);
+  scan.max_range_m = std::min(kMostRange, static_cast<double>(message.range_max));
   scan.ranges_m.reserve(message.ranges.size());
   for (const float range : message.ranges) scan.ranges_m.push_back(range_of(range, scan));
   return scan;

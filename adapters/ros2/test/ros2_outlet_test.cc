@@ -209,8 +209,8 @@ TEST(ScanMessage, SaysWhatABeamMetAsRep117Does) {
   LaserScan scan;
   scan.first_angle_rad = -1.0;
   scan.angle_step_rad = 0.5;
-  scan.least_range_m = 0.3;
-  scan.most_range_m = 30.0;
+  scan.min_range_m = 0.3;
+  scan.max_range_m = 30.0;
   scan.ranges_m = {2.5F, nothing_range(30.0), 0.0F};
   const sensor_msgs::LaserScan message = scan_message(scan, "laser", 20.0);
   EXPECT_EQ(message.ranges.at(0), 2.5F);
@@ -236,7 +236,7 @@ TEST(Ros2Navigation, TellsTheMapOnceAndWhereEachScanWasTaken) {
   LaserScan scan;
   scan.stamp = at(2.5);
   scan.angle_step_rad = 0.5;
-  scan.most_range_m = 30.0;
+  scan.max_range_m = 30.0;
   scan.ranges_m = {2.5F};
   navigation.on_scan("cart 1", {1.0, 2.0, M_PI / 2}, scan);
   navigation.on_scan("cart 2", {}, scan);

@@ -93,7 +93,7 @@ AntennaCalibration calibrated(const Recorded& recorded) {
 
 void expect_found(const Drive& drive, const AntennaCalibration& found, double sigmas) {
   for (int i = 0; i < 3; ++i) {
-    const CalibratedValue& value = found.place_m[i];
+    const CalibratedValue& value = found.phase_centre_m[i];
     EXPECT_TRUE(value.observable) << i;
     EXPECT_LT(value.sigma, 0.01) << i;
     EXPECT_NEAR(value.value, drive.place(i), sigmas * value.sigma + 2e-4) << i;
@@ -155,7 +155,8 @@ TEST(Calibrate, ErrorsAreWhatTheSigmasSay) {
     drive.duration_s = 40.0;
     const AntennaCalibration found = calibrated(record(drive, known_tags(), seed));
     for (int i = 0; i < 3; ++i) {
-      sum += std::pow((found.place_m[i].value - drive.place(i)) / found.place_m[i].sigma, 2);
+      sum += std::pow(
+          (found.phase_centre_m[i].value - drive.place(i)) / found.phase_centre_m[i].sigma, 2);
     }
     sum += std::pow((found.time_offset_s.value - drive.late_s) / found.time_offset_s.sigma, 2);
   }
@@ -169,7 +170,7 @@ TEST(Calibrate, WhatIsNotObservableStaysAsItWas) {
   for (AntennaPose& pose : recorded.poses) pose.X_WA = from_translation({0.0, 0.0, 1.0});
   for (TagRead& read : recorded.reads) read.phase_rad = 1.0;
   const AntennaCalibration found = calibrated(recorded);
-  for (const CalibratedValue& value : found.place_m) {
+  for (const CalibratedValue& value : found.phase_centre_m) {
     EXPECT_FALSE(value.observable);
     EXPECT_NEAR(value.value, 0.0, 1e-6);
   }
@@ -245,7 +246,7 @@ TEST(Calibrate, MakesTheLocalizationOfOtherTagsBetter) {
 
 TEST(Calibrate, OptionsOutOfRangeAreErrors) {
   CalibrationOptions options;
-  options.place_sigma_m = 0.0;
+  options.phase_centre_sigma_m = 0.0;
   EXPECT_THROW(check(options), Error);
   options = {};
   options.time_offset_sigma_s = std::nan("");

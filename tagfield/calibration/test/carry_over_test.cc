@@ -13,9 +13,9 @@ std::vector<Calibration> experiments(const std::vector<double>& y_m) {
   std::vector<Calibration> all;
   for (const double y : y_m) {
     AntennaCalibration antenna;
-    antenna.place_m[0] = {0.03, 0.001, true};
-    antenna.place_m[1] = {y, 0.001, true};
-    antenna.place_m[2] = {0.0, 0.1, false};
+    antenna.phase_centre_m[0] = {0.03, 0.001, true};
+    antenna.phase_centre_m[1] = {y, 0.001, true};
+    antenna.phase_centre_m[2] = {0.0, 0.1, false};
     antenna.time_offset_s = {0.0, 0.05, false};
     antenna.noise_rad = 0.1 + y;
     antenna.reads = 100;
@@ -28,13 +28,13 @@ TEST(CarryOver, WhatIsTheSameInAllIsKept) {
   Diagnostics diagnostics;
   const Calibration carried = carried_over(experiments({0.01, 0.012, 0.008}), diagnostics);
   const AntennaCalibration& antenna = carried.antennas.at("a");
-  EXPECT_TRUE(antenna.place_m[0].observable);
-  EXPECT_NEAR(antenna.place_m[0].value, 0.03, 1e-12);
-  EXPECT_TRUE(antenna.place_m[1].observable);
-  EXPECT_NEAR(antenna.place_m[1].value, 0.01, 1e-12);
+  EXPECT_TRUE(antenna.phase_centre_m[0].observable);
+  EXPECT_NEAR(antenna.phase_centre_m[0].value, 0.03, 1e-12);
+  EXPECT_TRUE(antenna.phase_centre_m[1].observable);
+  EXPECT_NEAR(antenna.phase_centre_m[1].value, 0.01, 1e-12);
   // By hand: a scatter of 2 mm, times √(1 + 1/3) for one more experiment.
-  EXPECT_NEAR(antenna.place_m[1].sigma, 0.002 * std::sqrt(4.0 / 3.0), 1e-9);
-  EXPECT_FALSE(antenna.place_m[2].observable);
+  EXPECT_NEAR(antenna.phase_centre_m[1].sigma, 0.002 * std::sqrt(4.0 / 3.0), 1e-9);
+  EXPECT_FALSE(antenna.phase_centre_m[2].observable);
   EXPECT_NEAR(antenna.noise_rad, 0.11, 1e-12);
   EXPECT_EQ(antenna.reads, 300U);
 }
@@ -44,9 +44,9 @@ TEST(CarryOver, WhatDiffersBetweenExperimentsIsLeftAsItWasAndSaidSo) {
   const Calibration carried =
       carried_over(experiments({-0.069, -0.045, 0.085, 0.002, -0.125}), diagnostics);
   const AntennaCalibration& antenna = carried.antennas.at("a");
-  EXPECT_FALSE(antenna.place_m[1].observable);
-  EXPECT_EQ(antenna.place_m[1].value, 0.0);
-  EXPECT_GT(antenna.place_m[1].sigma, 0.05);
+  EXPECT_FALSE(antenna.phase_centre_m[1].observable);
+  EXPECT_EQ(antenna.phase_centre_m[1].value, 0.0);
+  EXPECT_GT(antenna.phase_centre_m[1].sigma, 0.05);
   ASSERT_FALSE(diagnostics.warnings().empty());
   EXPECT_NE(diagnostics.warnings().front().find("position y does not carry over"),
             std::string::npos);

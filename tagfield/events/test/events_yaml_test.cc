@@ -12,7 +12,7 @@ constexpr const char* kWhole = R"(events:
   logical_readers:
     - name: gate
       antennas: [north, south]
-      least_rssi_dbm: -70
+      min_rssi_dbm: -70
       read_point: urn:epc:id:sgln:0614141.12345.1
       biz_step: receiving
     - {name: belt, readers: [r2]}
@@ -52,7 +52,7 @@ TEST(ReadEventsSpec, TakesEveryPart) {
   const EventsSpec spec = read_events_spec(write(kWhole));
   ASSERT_EQ(spec.logical_readers.size(), 2U);
   EXPECT_EQ(spec.logical_readers[0].antennas, (std::vector<std::string>{"north", "south"}));
-  EXPECT_EQ(spec.logical_readers[0].least_rssi_dbm, -70.0);
+  EXPECT_EQ(spec.logical_readers[0].min_rssi_dbm, -70.0);
   EXPECT_EQ(spec.logical_readers[0].epcis.read_point, "urn:epc:id:sgln:0614141.12345.1");
   EXPECT_EQ(spec.logical_readers[0].epcis.biz_step, "receiving");
   EXPECT_EQ(spec.logical_readers[1].readers, std::vector<std::string>{"r2"});

@@ -20,7 +20,7 @@ struct NumberSpan {
   double from = 0.0;
   double to = 1.0;
   bool logarithmic = false;  ///< Steps are factors; then 0 < from < to.
-  bool whole = false;        ///< Rounded to whole numbers.
+  bool integer = false;      ///< Rounded to integers.
   std::size_t steps = 0;     ///< Number of values that a grid takes from it, at least 2.
 };
 

@@ -33,7 +33,7 @@ NumberSpan span_of(YamlMap map, bool of_grid) {
   if (span.logarithmic && !(span.from > 0.0)) {
     map.at("from").fail("must be greater than 0 on a logarithmic scale");
   }
-  span.whole = map.boolean("whole", false);
+  span.integer = map.boolean("integer", false);
   if (of_grid) span.steps = size_in(map.at("steps"), 2, kMostSteps);
   map.finish();
   return span;

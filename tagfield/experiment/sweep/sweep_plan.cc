@@ -18,15 +18,15 @@ constexpr std::size_t kMostPoints = 1'000'000;
 using Settings = std::vector<Override>;
 
 /// The value as YAML. Six digits are enough, and look like what a person would have written.
-std::string value_text(double value, bool whole) {
-  return whole ? fmt::format("{:.0f}", std::round(value)) : fmt::format("{:.6g}", value);
+std::string value_text(double value, bool integer) {
+  return integer ? fmt::format("{:.0f}", std::round(value)) : fmt::format("{:.6g}", value);
 }
 
 /// The value at `share` of the span, in [0, 1].
 std::string value_along(const NumberSpan& span, double share) {
   const double value = span.logarithmic ? span.from * std::pow(span.to / span.from, share)
                                         : span.from + (span.to - span.from) * share;
-  return value_text(value, span.whole);
+  return value_text(value, span.integer);
 }
 
 std::vector<std::string> values_of(const SweptKey& key) {

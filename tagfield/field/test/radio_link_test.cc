@@ -298,7 +298,7 @@ TEST(Diffuse, HasThePowerOfItsKFactor) {
 }
 
 TEST(MostRange, IsTheFreeSpaceRange) {
-  EXPECT_NEAR(most_range_m(antenna(35.15, 865.7e6), tag(2.0, -20.0)), 14.05 * std::sqrt(2.0), 0.05);
+  EXPECT_NEAR(max_range_m(antenna(35.15, 865.7e6), tag(2.0, -20.0)), 14.05 * std::sqrt(2.0), 0.05);
 }
 
 /// Two kinds of tags on a spiral in all orientations, in runs of the same kind.

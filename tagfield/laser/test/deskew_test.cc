@@ -236,7 +236,7 @@ TEST(Deskew, NothingStaysNothing) {
     const Beam beam = beam_of(scan, range);
     EXPECT_NE(beam, Beam::kReturn);
     if (beam == Beam::kNothing) {
-      EXPECT_EQ(range, nothing_range(laser.most_range_m));
+      EXPECT_EQ(range, nothing_range(laser.max_range_m));
       ++nothing;
     }
   }
@@ -245,8 +245,8 @@ TEST(Deskew, NothingStaysNothing) {
 
 TEST(Deskew, InvalidStaysInvalidAndRangesStayInRange) {
   LaserParameters laser = swept_laser();
-  laser.least_range_m = 3.5;
-  laser.most_range_m = 5.5;
+  laser.min_range_m = 3.5;
+  laser.max_range_m = 5.5;
   const Motion motion{{1.5, 1.0}};
   const LaserScan scan = deskewed(swept_scan(room(), laser, motion), laser, motion);
   const View view = view_at(laser, motion, scan.stamp);

@@ -8,8 +8,8 @@ namespace {
 
 TEST(LaserScan, BeamsSayWhatTheirRangesMean) {
   LaserScan scan;
-  scan.least_range_m = 0.3;
-  scan.most_range_m = 30.0;
+  scan.min_range_m = 0.3;
+  scan.max_range_m = 30.0;
   EXPECT_EQ(beam_of(scan, 0.3F), Beam::kReturn);
   EXPECT_EQ(beam_of(scan, 30.0F), Beam::kReturn);
   EXPECT_EQ(beam_of(scan, 30.001F), Beam::kNothing);
@@ -20,7 +20,7 @@ TEST(LaserScan, BeamsSayWhatTheirRangesMean) {
 
 TEST(LaserScan, ZeroIsInvalidEvenWhereTheLeastRangeIsZero) {
   LaserScan scan;
-  scan.most_range_m = 30.0;
+  scan.max_range_m = 30.0;
   EXPECT_EQ(beam_of(scan, 0.0F), Beam::kInvalid);
   EXPECT_EQ(beam_of(scan, 1e-3F), Beam::kReturn);
 }
@@ -28,7 +28,7 @@ TEST(LaserScan, ZeroIsInvalidEvenWhereTheLeastRangeIsZero) {
 TEST(LaserScan, TheRangeThatStandsForNothingSaysSo) {
   for (const double most_m : {0.1, 1.0, 5.6, 30.0, 1000.0, 1e6}) {
     LaserScan scan;
-    scan.most_range_m = most_m;
+    scan.max_range_m = most_m;
     EXPECT_EQ(beam_of(scan, nothing_range(most_m)), Beam::kNothing) << most_m;
   }
 }

@@ -47,7 +47,7 @@ TEST(SimulatedLaser, SeesTheWallsOfARoomAtAllAngles) {
 
 RC_GTEST_PROP(SimulatedLaser, SeesTheWallsFromAnywhere, ()) {
   LaserParameters laser = exact_laser();
-  laser.least_range_m = 0.0;
+  laser.min_range_m = 0.0;
   const auto any = [](double low, double high) {
     return low + (high - low) * 1e-4 * *rc::gen::inRange(100, 9900);
   };
@@ -91,8 +91,8 @@ TEST(SimulatedLaser, TiltedItSeesTheFloor) {
 
 TEST(SimulatedLaser, NearAndFarAreSaidAsTheScanSays) {
   LaserParameters laser = exact_laser();
-  laser.least_range_m = 3.0;
-  laser.most_range_m = 4.5;
+  laser.min_range_m = 3.0;
+  laser.max_range_m = 4.5;
   const LaserScan scan = scan_from(room(), laser, from_planar(1.0, -0.5, 0.0));
   std::array<int, 3> seen{};
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
@@ -146,8 +146,8 @@ TEST(SimulatedLaser, NoiseTakesNoReturnOutOfTheRange) {
     laser.sigma_m = 0.1;
     laser.first_angle_rad = -0.001;
     laser.last_angle_rad = 0.001;
-    laser.least_range_m = far ? 0.3 : 3.8499;
-    laser.most_range_m = far ? 3.8501 : 30.0;
+    laser.min_range_m = far ? 0.3 : 3.8499;
+    laser.max_range_m = far ? 3.8501 : 30.0;
     laser.beams = 10'000;
     const LaserScan scan = scan_from(room(), laser, {});
     int returns = 0;
@@ -281,7 +281,7 @@ double to_segment(double angle, const Eigen::Vector2d& a, const Eigen::Vector2d&
 RC_GTEST_PROP(SimulatedLaser, SeesARectangleAsItsFourEdges, ()) {
   LaserParameters laser = exact_laser();
   laser.X_RL = from_translation({0.0, 0.0, 0.3});
-  laser.least_range_m = 0.0;
+  laser.min_range_m = 0.0;
   laser.beams = 90;
   const auto any = [](double most) { return most * 1e-4 * *rc::gen::inRange(-10000, 10000); };
   const Eigen::Vector2d centre(any(3.0), any(3.0));
@@ -377,9 +377,9 @@ TEST(SimulatedLaser, RefusesBadParameters) {
   EXPECT_TRUE(contains(message([nan](auto& l) { l.last_angle_rad = nan; }), "last_angle_rad"));
   EXPECT_TRUE(contains(message([](auto& l) { l.last_angle_rad = -1.6; }), "last_angle_rad"));
   EXPECT_TRUE(contains(message([](auto& l) { l.last_angle_rad = 5.0; }), "last_angle_rad"));
-  EXPECT_TRUE(contains(message([](auto& l) { l.least_range_m = -0.1; }), "least_range_m"));
-  EXPECT_TRUE(contains(message([](auto& l) { l.most_range_m = 0.3; }), "most_range_m"));
-  EXPECT_TRUE(contains(message([](auto& l) { l.most_range_m = 1e4; }), "most_range_m"));
+  EXPECT_TRUE(contains(message([](auto& l) { l.min_range_m = -0.1; }), "min_range_m"));
+  EXPECT_TRUE(contains(message([](auto& l) { l.max_range_m = 0.3; }), "max_range_m"));
+  EXPECT_TRUE(contains(message([](auto& l) { l.max_range_m = 1e4; }), "max_range_m"));
   EXPECT_TRUE(contains(message([](auto& l) { l.rate_hz = 0.0; }), "rate_hz"));
   EXPECT_TRUE(contains(message([nan](auto& l) { l.rate_hz = nan; }), "rate_hz"));
   EXPECT_TRUE(contains(message([nan](auto& l) { l.sigma_m = nan; }), "sigma_m"));

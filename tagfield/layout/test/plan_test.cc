@@ -95,7 +95,7 @@ TEST(AntennaPlan, ChoosesTheCheapestThatIsEnough) {
   const AntennaPlan few = planned(text + "  aim: {share: 0.95}\n").plan;
   ASSERT_EQ(few.layouts[few.chosen].antennas.size(), 1U);
   EXPECT_DOUBLE_EQ(few.layouts[few.chosen].cost, 500.0);
-  const AntennaPlan cheap = planned(text + "  aim: {share: 0.95, least: cost}\n").plan;
+  const AntennaPlan cheap = planned(text + "  aim: {share: 0.95, minimize: cost}\n").plan;
   const PlannedLayout& layout = cheap.layouts[cheap.chosen];
   EXPECT_DOUBLE_EQ(layout.cost, 200.0);
   EXPECT_EQ(layout.antennas.size(), 2U);
@@ -104,7 +104,7 @@ TEST(AntennaPlan, ChoosesTheCheapestThatIsEnough) {
   for (std::size_t i = 0; i + 1 < cheap.layouts.size(); ++i) {
     EXPECT_LT(cheap.layouts[i].antennas.size(), cheap.layouts[i + 1].antennas.size());
   }
-  EXPECT_NE(complaint_of(text + "  aim: {least: cost}\n").find("no effect without 'share'"),
+  EXPECT_NE(complaint_of(text + "  aim: {minimize: cost}\n").find("no effect without 'share'"),
             std::string::npos);
 }
 

@@ -147,7 +147,7 @@ TagEstimate locate_by_differences(const LocalizationProblem& problem, const std:
   judgement.climb = false;
   judgement.at_maxima = false;
   judgement.known_offsets = false;  // The offset cancels in differences.
-  const double noise = largest_phase_noise(samples, options.least_noise_rad);
+  const double noise = largest_phase_noise(samples, options.min_noise_rad);
   const double grid_noise = std::hypot(noise, kGridNoise);
   judgement.error_factor = [&](const TagPhases& phases, const HeightModel& height,
                                const PositionVector& place) {
@@ -170,8 +170,8 @@ const OptionTable<DahOptions>& dah_options() {
   using O = DahOptions;
   static const OptionTable<O> of = [] {
     OptionTable<O> table{
-        {setting<O>("least_noise_rad", "rad", "lower bound on the phase noise (standard deviation)",
-                    &O::least_noise_rad, kOverZero),
+        {setting<O>("min_noise_rad", "rad", "lower bound on the phase noise (standard deviation)",
+                    &O::min_noise_rad, kOverZero),
          setting<O>("min_share", "", "minimum coherence; below it a tag is not taken to be at rest",
                     &O::min_share, kShareRange)}};
     add_search_options(table);

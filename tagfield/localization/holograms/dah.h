@@ -12,8 +12,8 @@
 namespace tagfield {
 
 struct DahOptions : SearchOptions {
-  double least_noise_rad = 0.1;  ///< Lower bound on a phase's standard deviation; over 0.
-  double min_share = 0.5;        ///< See CoherentJudgement; in (0, 1].
+  double min_noise_rad = 0.1;  ///< Lower bound on a phase's standard deviation; over 0.
+  double min_share = 0.5;      ///< See CoherentJudgement; in (0, 1].
 };
 
 /// Σ over apertures of |Σ_i w_i e^{jε_i}| with ε_i = (φ_i − φ_0) − k (r_i − r_0) wrapped, read 0

@@ -242,7 +242,7 @@ TagEstimate locate_by_particles(const LocalizationProblem& problem, const std::s
       problem, tag, samples, judgement, [&](const TagPhases& phases, const HeightModel& height) {
         Search search = prepare(phases, height);
         search.concentration =
-            1.0 / phase_variance(problem, samples, phases, options.least_noise_rad);
+            1.0 / phase_variance(problem, samples, phases, options.min_noise_rad);
         RandomStream stream(options.seed, Purpose::kTagSearch, stream_key(tag));
         return clusters_of(search, spread_and_anneal(search, options, stream));
       });
@@ -257,8 +257,8 @@ const OptionTable<ParticleOptions>& particle_options() {
                   &O::max_range_m, kOverZero),
        setting<O>("max_height_m", "m", "above or below the antennas, where the height is unknown",
                   &O::max_height_m, kOverZero),
-       setting<O>("least_noise_rad", "rad", "lower bound on the phase noise (standard deviation)",
-                  &O::least_noise_rad, kOverZero),
+       setting<O>("min_noise_rad", "rad", "lower bound on the phase noise (standard deviation)",
+                  &O::min_noise_rad, kOverZero),
        setting<O>("min_share", "", "minimum coherence; below it a tag is not taken to be at rest",
                   &O::min_share, kShareRange),
        setting<O>("seed", "", "of the draws", &O::seed, kAtLeastZero)}};

@@ -16,7 +16,7 @@ struct ParticleOptions {
   std::size_t particles = 3000;  ///< From 100 to 1000000.
   double max_range_m = 12.0;     ///< Half of the reads are from within this range; over 0.
   double max_height_m = 3.0;     ///< Above or below the antennas, if the height is unknown.
-  double least_noise_rad = 0.1;  ///< Lower bound on a phase's standard deviation; over 0.
+  double min_noise_rad = 0.1;    ///< Lower bound on a phase's standard deviation; over 0.
   double min_share = 0.5;        ///< See CoherentJudgement; in (0, 1].
   std::uint64_t seed = 1;        ///< A stream depends on the seed and the tag's ID.
 };

@@ -101,7 +101,7 @@ WorldFit begin(const LocalizationProblem& problem, const std::vector<TagEstimate
     placed[k] = {estimate.tag, &samples,
                  is_reference(problem, estimate.tag)
                      ? problem.reference_tags.at(estimate.tag)
-                     : likeliest_position({problem, sight, options.least_directness, noise_rad},
+                     : likeliest_position({problem, sight, options.min_directness, noise_rad},
                                           estimate, kNear)};
     tell(problem, "tags in the known world",
          static_cast<double>(++done) / static_cast<double>(numbers.size()));
@@ -145,9 +145,9 @@ LocalizationResult locate_through_world(const LocalizationProblem& problem, int 
 const OptionTable<MultipathOptions>& multipath_options() {
   using O = MultipathOptions;
   static const OptionTable<O> of{
-      {setting<O>("least_directness", "",
+      {setting<O>("min_directness", "",
                   "least share of the direct path in the amplitude of replies that are used",
-                  &O::least_directness, {0.0, true, 1.0}),
+                  &O::min_directness, {0.0, true, 1.0}),
        setting<O>("rounds", "", "of tracing and fitting", &O::rounds, kAtLeastOne)}};
   return of;
 }

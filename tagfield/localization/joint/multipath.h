@@ -9,8 +9,8 @@
 namespace tagfield {
 
 struct MultipathOptions {
-  double least_directness = 0.1;  ///< Minimum share of the direct path in used replies; in (0, 1].
-  int rounds = 9;                 ///< Rounds of tracing and fitting; at least 1.
+  double min_directness = 0.1;  ///< Minimum share of the direct path in used replies; in (0, 1].
+  int rounds = 9;               ///< Rounds of tracing and fitting; at least 1.
 };
 
 /// Method "multipath". Without a known world (LocalizationProblem::trace), no tag is located.

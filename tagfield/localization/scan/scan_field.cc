@@ -60,12 +60,12 @@ struct Cell {
 
 using ScanChannel = std::map<int, Cell>;  ///< By position.
 
-std::map<double, ScanChannel> channels_of(const ScanLine& line, double place_m,
+std::map<double, ScanChannel> channels_of(const ScanLine& line, double cell_m,
                                           const std::vector<PhaseSample>& series) {
   std::map<double, ScanChannel> channels;
   for (const PhaseSample& sample : series) {
     const double along = line.along.dot(sample.p_WA.head<2>() - line.middle);
-    const int place = static_cast<int>(std::lround(along / place_m));
+    const int place = static_cast<int>(std::lround(along / cell_m));
     Cell& cell = channels[sample.frequency_hz][place];
     cell.waves += std::polar(1.0, sample.phase_rad);
     cell.decibels += sample.rssi_dbm;

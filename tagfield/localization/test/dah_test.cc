@@ -95,7 +95,7 @@ RC_GTEST_PROP(Dah, BrightnessIsThatOfTheDefinition, ()) {
 
 TEST(Dah, BadOptionsAreErrors) {
   DahOptions options;
-  options.least_noise_rad = 0.0;
+  options.min_noise_rad = 0.0;
   EXPECT_THROW(dah_method(options), Error);
 }
 

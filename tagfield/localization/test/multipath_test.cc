@@ -243,7 +243,7 @@ TEST(Multipath, WithoutAWorldSaysSo) {
 }
 
 TEST(Multipath, BadOptionsAreErrors) {
-  EXPECT_THROW(multipath_method({.least_directness = 0.0}), Error);
+  EXPECT_THROW(multipath_method({.min_directness = 0.0}), Error);
   EXPECT_THROW(multipath_method({.rounds = 0}), Error);
 }
 

@@ -65,7 +65,7 @@ TEST(PathFollower, ReachesEachEndWithinItsLimits) {
     EXPECT_TRUE(result.arrived);
     EXPECT_LT(std::hypot(result.end.x - path.back().x(), result.end.y - path.back().y()), 0.05);
     EXPECT_LE(result.fastest, style.speed_m_s + 1e-12);
-    EXPECT_LE(result.fastest_turn, style.most_turn_rad_s + 1e-9);
+    EXPECT_LE(result.fastest_turn, style.max_turn_rad_s + 1e-9);
     EXPECT_LT(result.most_deviation, 1.2 * style.look_ahead_m);
   }
 }

@@ -105,7 +105,7 @@ TEST(RobotFrom, ReadsEachParameter) {
   EXPECT_EQ(robot.waypoints[1], Eigen::Vector2d(3.5, 4.0));
   EXPECT_EQ(robot.style.speed_m_s, 0.2);
   EXPECT_EQ(robot.style.look_ahead_m, 0.3);
-  EXPECT_EQ(robot.style.most_turn_rad_s, 0.9);
+  EXPECT_EQ(robot.style.max_turn_rad_s, 0.9);
   EXPECT_EQ(robot.odometry_rate_hz, 100.0);
   EXPECT_NEAR(robot.odometry.encoder_step_rad, kTwoPi / 360.0, 1e-15);
   EXPECT_EQ(robot.odometry.wheel_noise, 0.0);

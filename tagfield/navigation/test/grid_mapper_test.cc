@@ -87,8 +87,8 @@ TEST(GridMapper, PassesOverScansThatSayNothing) {
   GridMapper mapper({}, {}, {1.0, 2.0, 0.5}, 1);
   LaserScan scan;
   scan.angle_step_rad = 0.01;
-  scan.least_range_m = 0.1;
-  scan.most_range_m = 10.0;
+  scan.min_range_m = 0.1;
+  scan.max_range_m = 10.0;
   EXPECT_FALSE(mapper.update(scan, {}));  // no beam at all
   scan.ranges_m.assign(100, 0.0F);
   EXPECT_FALSE(mapper.update(scan, {}));  // no valid beam

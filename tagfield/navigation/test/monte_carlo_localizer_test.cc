@@ -167,8 +167,8 @@ TEST(MonteCarloLocalizer, PassesOverScansThatSayNothing) {
   known.start_at(roughly({}));
   LaserScan scan;
   scan.angle_step_rad = 0.01;
-  scan.least_range_m = 0.1;
-  scan.most_range_m = 10.0;
+  scan.min_range_m = 0.1;
+  scan.max_range_m = 10.0;
   EXPECT_FALSE(known.update(scan, {}));
   scan.ranges_m.assign(100, 0.0F);
   EXPECT_FALSE(known.update(scan, {}));

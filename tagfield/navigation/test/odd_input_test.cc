@@ -53,7 +53,7 @@ std::vector<Odd> scans_without_meaning() {
   add("negative", [](LaserScan& scan) { scan.ranges_m.assign(361, -1.0F); });
   add("angle NaN", [](LaserScan& scan) { scan.first_angle_rad = kNever; });
   add("steps infinite", [](LaserScan& scan) { scan.angle_step_rad = kFar; });
-  add("ranges NaN", [](LaserScan& scan) { scan.least_range_m = scan.most_range_m = kNever; });
+  add("ranges NaN", [](LaserScan& scan) { scan.min_range_m = scan.max_range_m = kNever; });
   return odd;
 }
 

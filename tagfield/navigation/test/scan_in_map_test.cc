@@ -19,8 +19,8 @@ LaserScan scan_of(std::vector<float> ranges, double first = -kPi / 2.0, double l
   LaserScan scan;
   scan.first_angle_rad = first;
   scan.angle_step_rad = (last - first) / static_cast<double>(ranges.size() - 1);
-  scan.least_range_m = 0.3;
-  scan.most_range_m = 10.0;
+  scan.min_range_m = 0.3;
+  scan.max_range_m = 10.0;
   scan.ranges_m = std::move(ranges);
   return scan;
 }

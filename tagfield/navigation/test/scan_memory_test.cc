@@ -12,8 +12,8 @@ ScanInMap scan_at(double seconds, double range_m, double yaw = 0.0) {
   scan.stamp = time_from_seconds(seconds);
   scan.first_angle_rad = -3.0 * 0.0175;
   scan.angle_step_rad = 0.0175;
-  scan.least_range_m = 0.3;
-  scan.most_range_m = 10.0;
+  scan.min_range_m = 0.3;
+  scan.max_range_m = 10.0;
   scan.ranges_m.assign(7, static_cast<float>(range_m));
   return scan_in_map(scan, {}, {0.0, 0.0, yaw}, {});
 }

@@ -12,8 +12,8 @@ LaserScan three_beams(float right, float ahead, float left) {
   LaserScan scan;
   scan.first_angle_rad = -kPi / 2.0;
   scan.angle_step_rad = kPi / 2.0;
-  scan.least_range_m = 0.2;
-  scan.most_range_m = 10.0;
+  scan.min_range_m = 0.2;
+  scan.max_range_m = 10.0;
   scan.ranges_m = {right, ahead, left};
   return scan;
 }
@@ -50,8 +50,8 @@ LaserScan turning_scan(std::size_t beams, float range) {
   LaserScan scan;
   scan.first_angle_rad = -2.0;
   scan.angle_step_rad = 4.0 / static_cast<double>(beams - 1);
-  scan.least_range_m = 0.01;
-  scan.most_range_m = 10.0;
+  scan.min_range_m = 0.01;
+  scan.max_range_m = 10.0;
   scan.ranges_m.assign(beams, range);
   return scan;
 }

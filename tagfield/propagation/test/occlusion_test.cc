@@ -138,7 +138,7 @@ void compare_bounces(const std::string& world) {
       scene.collisions.end());
   RadioSceneOptions all;
   all.opaque.assign(scene.collisions.size(), 1);
-  all.least_facet_m2 = 0.0;
+  all.min_facet_m2 = 0.0;
   const RadioScene radio(scene, all);
   const std::vector<TestTriangle> triangles = all_triangles(scene);
   TraceOptions options;

@@ -39,7 +39,7 @@ TEST(RadioScene, ABoxHasSixFacetsThatFaceOut) {
 
 TEST(RadioScene, SmallPiecesAreLeftOutAndCounted) {
   RadioSceneOptions options;
-  options.least_facet_m2 = 2.5;
+  options.min_facet_m2 = 2.5;
   const RadioScene radio(scene_of(Box{{1.0, 2.0, 3.0}}), options);
   EXPECT_EQ(radio.facets().size(), 4U);
   EXPECT_EQ(radio.left_out().count, 2U);
@@ -116,9 +116,9 @@ TEST(RadioScene, BadOptionsAreErrors) {
   options.opaque = {1, 0};
   EXPECT_TRUE(contains(error_of([&] { RadioScene(scene_of(Sphere{1.0}), options); }), "opaque"));
   options.opaque = {};
-  options.least_facet_m2 = std::nan("");
+  options.min_facet_m2 = std::nan("");
   EXPECT_TRUE(
-      contains(error_of([&] { RadioScene(scene_of(Sphere{1.0}), options); }), "least_facet_m2"));
+      contains(error_of([&] { RadioScene(scene_of(Sphere{1.0}), options); }), "min_facet_m2"));
 }
 
 TEST(RadioScene, KnowsOnWhichSideAFacetHasPoints) {

@@ -41,36 +41,36 @@ TEST(MostRange, IsWhereTheChipWakesUp) {
   // away.
   RadioModel model = plain_model();
   model.hardware.sensitivity_dbm = -140.0;
-  EXPECT_NEAR(free_space_db(most_range_m(model, plain_tag(-18.0))), 48.0, 1e-9);
+  EXPECT_NEAR(free_space_db(max_range_m(model, plain_tag(-18.0))), 48.0, 1e-9);
   // Gains and losses of the forward link.
   model.antenna.gain_dbi = 6.0;
   model.cable_loss_db = 1.5;
   TagModel tag = plain_tag(-18.0);
   tag.antenna.gain_dbi = 2.0;
   tag.detuning_db = 3.0;
-  EXPECT_NEAR(free_space_db(most_range_m(model, tag)), 48.0 + 6.0 - 1.5 + 2.0 - 3.0, 1e-9);
+  EXPECT_NEAR(free_space_db(max_range_m(model, tag)), 48.0 + 6.0 - 1.5 + 2.0 - 3.0, 1e-9);
 }
 
 TEST(MostRange, IsWhereTheReaderStillHears) {
   // 30 − 2 L − 5 = −60 dBm, as a chip that needs almost no power would respond from further away.
   RadioModel model = plain_model();
   model.hardware.sensitivity_dbm = -60.0;
-  EXPECT_NEAR(free_space_db(most_range_m(model, plain_tag(-90.0))), 42.5, 1e-9);
+  EXPECT_NEAR(free_space_db(max_range_m(model, plain_tag(-90.0))), 42.5, 1e-9);
   // Antenna gain and cable loss count twice here.
   model.antenna.gain_dbi = 6.0;
   model.cable_loss_db = 1.5;
-  EXPECT_NEAR(free_space_db(most_range_m(model, plain_tag(-90.0))), 42.5 + 6.0 - 1.5, 1e-9);
+  EXPECT_NEAR(free_space_db(max_range_m(model, plain_tag(-90.0))), 42.5 + 6.0 - 1.5, 1e-9);
 }
 
 TEST(MostRange, IsTwiceThatWhereOtherWavesMayAdd) {
   RadioModel model = plain_model();
-  const double alone_m = most_range_m(model, plain_tag(-18.0));
+  const double alone_m = max_range_m(model, plain_tag(-18.0));
   model.reflection_order = 1;
-  EXPECT_NEAR(most_range_m(model, plain_tag(-18.0)), 2.0 * alone_m, 1e-9);
+  EXPECT_NEAR(max_range_m(model, plain_tag(-18.0)), 2.0 * alone_m, 1e-9);
   model.effects.reflections = false;
-  EXPECT_NEAR(most_range_m(model, plain_tag(-18.0)), alone_m, 1e-9);
+  EXPECT_NEAR(max_range_m(model, plain_tag(-18.0)), alone_m, 1e-9);
   model.diffuse_k_db = 3.0;
-  EXPECT_NEAR(most_range_m(model, plain_tag(-18.0)), 2.0 * alone_m, 1e-9);
+  EXPECT_NEAR(max_range_m(model, plain_tag(-18.0)), 2.0 * alone_m, 1e-9);
 }
 
 TEST(TransmitSpectrum, HasTheChannelsOfItsMask) {

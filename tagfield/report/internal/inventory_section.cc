@@ -155,7 +155,7 @@ std::string inventory_sentence(const InventorySummary& inventory, std::size_t se
                                  tally(static_cast<double>(inventory.tags) - inventory.read));
   if (seeds > 1) {
     text += fmt::format("; the mean of {} runs, of which the worst read {} and the best {}", seeds,
-                        tally(inventory.least_read), tally(inventory.most_read));
+                        tally(inventory.min_read), tally(inventory.max_read));
   }
   return text + ".";
 }

@@ -69,6 +69,11 @@ constexpr const char* kSingleHeadEnd =
     "<th scope=\"col\">z</th><th scope=\"col\">x</th><th scope=\"col\">y</th>"
     "<th scope=\"col\">z</th></tr></thead>";
 
+/// None if it is 0: the method, such as `fixed`, or a third-party table does not state it.
+std::optional<double> stated(double error_m) {
+  return error_m > 0.0 ? std::optional(error_m) : std::nullopt;
+}
+
 std::string single_row(const TagOutcome& outcome, bool remarks) {
   const TagEstimate& estimate = outcome.estimate;
   const Candidate* best = estimate.candidates.empty() ? nullptr : &estimate.candidates.front();
@@ -78,8 +83,8 @@ std::string single_row(const TagOutcome& outcome, bool remarks) {
   row += place_cells(located ? std::optional(best->p_WT) : std::nullopt);
   row += millimetres(error_of(outcome));
   const bool has_errors = best != nullptr && !outcome.reference;
-  row += millimetres(has_errors ? std::optional(best->rms_m) : std::nullopt);
-  row += millimetres(has_errors ? std::optional(best->expected_error_m) : std::nullopt);
+  row += millimetres(has_errors ? stated(best->rms_m) : std::nullopt);
+  row += millimetres(has_errors ? stated(best->expected_error_m) : std::nullopt);
   row += cell(grouped(outcome.reads));
   if (remarks) row += words(remark_on(outcome));
   return row + "</tr>\n";
@@ -116,7 +121,7 @@ std::optional<double> mean_expected_error(const TagRow& row) {
     ++located;
   }
   if (located == 0) return std::nullopt;
-  return sum / static_cast<double>(located);
+  return stated(sum / static_cast<double>(located));
 }
 
 std::string several_row(const TagRow& tag) {

@@ -11,7 +11,7 @@ InventorySummary run_of(double read, std::optional<double> time_s) {
   InventorySummary run;
   run.tags = 10;
   run.duration_s = 2.0;
-  run.read = run.least_read = run.most_read = read;
+  run.read = run.min_read = run.max_read = read;
   run.reads = 4.0 * read;
   run.median_reads = 4.0;
   run.reached = {{0.5, time_s}};
@@ -25,8 +25,8 @@ InventorySummary run_of(double read, std::optional<double> time_s) {
 TEST(Inventory, OfSeveralRunsIsTheirMean) {
   const InventorySummary mean = mean_of({run_of(6.0, 0.4), run_of(9.0, 0.8)});
   EXPECT_DOUBLE_EQ(mean.read, 7.5);
-  EXPECT_DOUBLE_EQ(mean.least_read, 6.0);
-  EXPECT_DOUBLE_EQ(mean.most_read, 9.0);
+  EXPECT_DOUBLE_EQ(mean.min_read, 6.0);
+  EXPECT_DOUBLE_EQ(mean.max_read, 9.0);
   EXPECT_DOUBLE_EQ(mean.antennas[0].reads, 30.0);
   EXPECT_DOUBLE_EQ(mean.zones[0].read, 7.5);
   EXPECT_DOUBLE_EQ(mean.zones[0].cross[0].reads, 3.0);

@@ -53,7 +53,7 @@ TEST(PlanLayer, IsThePlanThatWasWritten) {
   const TemporaryFolder folder;
   EXPECT_FALSE(is_plan_folder(folder.path().string()));
   put(folder, "plan.json", plan_to_json(shop()));
-  put(folder, "plan_places.csv", plan_positions_to_csv(shop()));
+  put(folder, "plan_positions.csv", plan_positions_to_csv(shop()));
   ASSERT_TRUE(is_plan_folder(folder.path().string()));
   const auto json = nlohmann::json::parse(plan_layer_to_json(folder.path().string()));
   EXPECT_EQ(json["counts"], "read at least 3 times");
@@ -71,18 +71,18 @@ TEST(PlanLayer, FilesThatAreNotWholeAreErrors) {
   const TemporaryFolder folder;
   EXPECT_NE(complaint_of(folder).find("plan.json"), std::string::npos);
   put(folder, "plan.json", "[1, 2");
-  put(folder, "plan_places.csv", plan_positions_to_csv(shop()));
+  put(folder, "plan_positions.csv", plan_positions_to_csv(shop()));
   EXPECT_NE(complaint_of(folder).find("plan.json"), std::string::npos);
   AntennaPlan plan = shop();
   // A table from a plan with fewer antennas.
   plan.layouts.pop_back();
   put(folder, "plan.json", plan_to_json(shop()));
-  put(folder, "plan_places.csv", plan_positions_to_csv(plan));
+  put(folder, "plan_positions.csv", plan_positions_to_csv(plan));
   EXPECT_NE(complaint_of(folder).find("p_2"), std::string::npos);
   std::string text = plan_positions_to_csv(shop());
   text.replace(text.find("0.5040"), 6, "7.5040");
-  put(folder, "plan_places.csv", text);
-  EXPECT_NE(complaint_of(folder).find("plan_places.csv:2: p_1 is 7.504, expected 0 to 1"),
+  put(folder, "plan_positions.csv", text);
+  EXPECT_NE(complaint_of(folder).find("plan_positions.csv:2: p_1 is 7.504, expected 0 to 1"),
             std::string::npos);
   std::string json = plan_to_json(shop());
   const std::string chosen = "\"chosen_antennas\": 1";

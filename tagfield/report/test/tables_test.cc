@@ -53,6 +53,15 @@ TEST(TagTable, NamesReferenceTagsWithoutErrors) {
   }
 }
 
+TEST(TagTable, HoldsNoErrorsThatAMethodDoesNotState) {
+  Summary summary = summary_of({});
+  for (TagOutcome& tag : summary.tags) {
+    tag.estimate.candidates.front().rms_m = 0.0;
+    tag.estimate.candidates.front().expected_error_m = 0.0;
+  }
+  EXPECT_FALSE(holds(tag_table(summary), "<td>0.0</td>"));
+}
+
 TEST(TagTable, StopsAtManyTags) {
   FolderPlan plan;
   plan.tags = many_tags(2000);

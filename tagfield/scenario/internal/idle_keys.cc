@@ -91,7 +91,7 @@ void warn_of_navigating_robot(YamlMap& map, const Scenario& scenario,
   const auto navigates = std::find_if(scenario.robots.begin(), scenario.robots.end(), drives);
   if (navigates == scenario.robots.end()) return;
   const auto number = static_cast<std::size_t>(navigates - scenario.robots.begin());
-  warn_beside(of_source, YamlMap(map.list("robots")[number]), {"most_turn_rad_s", "look_ahead_m"},
+  warn_beside(of_source, YamlMap(map.list("robots")[number]), {"max_turn_rad_s", "look_ahead_m"},
               "with navigation: slam, whose paths navigation.driving describes", diagnostics);
 }
 
@@ -100,7 +100,13 @@ void warn_of_navigation(YamlMap map, Diagnostics& diagnostics) {
   if (map.has("mapping")) warn(map.at("mapping"), "with a given map", diagnostics);
 }
 
-void warn_of_obstacle(YamlMap map, Diagnostics& diagnostics) {
+/// Waves pass through an obstacle without a material; only robots, with their lasers, notice it.
+void warn_of_obstacle(const YamlValue& value, const Scenario& scenario, Diagnostics& diagnostics) {
+  YamlMap map(value);
+  if (!map.has("material") && scenario.robots.empty()) {
+    warn(value, "on reads: it has no material, and there is no robot that could notice it",
+         diagnostics);
+  }
   if (map.has("radius_m") && map.number("yaw", 0.0) != 0.0) {
     warn(map.at("yaw"), "on a round obstacle", diagnostics);
   }
@@ -173,7 +179,7 @@ void warn_of_idle_keys(YamlMap& map, const Scenario& scenario, Diagnostics& diag
   }
   if (is_mapping(map, "navigation")) warn_of_navigation(YamlMap(map.at("navigation")), diagnostics);
   for (const YamlValue& obstacle : map.list("obstacles")) {
-    warn_of_obstacle(YamlMap(obstacle), diagnostics);
+    warn_of_obstacle(obstacle, scenario, diagnostics);
   }
   if (!is_mapping(map, "localization")) return;
   YamlMap localization(map.at("localization"));
@@ -186,7 +192,7 @@ std::vector<PlacedKey> keys_of_physical_models(YamlMap& map) {
   std::vector<PlacedKey> all;
   add(map, {"materials"}, all);
   if (is_mapping(map, "world")) {
-    add(YamlMap(map.at("world")), {"materials", "default_material", "least_facet_m2"}, all);
+    add(YamlMap(map.at("world")), {"materials", "default_material", "min_facet_m2"}, all);
   }
   for (const YamlValue& robot : map.list("robots")) add(YamlMap(robot), {"body"}, all);
   for (const YamlValue& obstacle : map.list("obstacles")) add(YamlMap(obstacle), {"material"}, all);
@@ -210,7 +216,7 @@ void warn_of_idle_settings(const Scenario& scenario,
                        fmt::format("{} has no effect with model: paper; expected model: "
                                    "link_budget or multipath",
                                    key.path));
-    } else if (key.path == "world.least_facet_m2" && !any_reflects) {
+    } else if (key.path == "world.min_facet_m2" && !any_reflects) {
       diagnostics.warn(key.location,
                        fmt::format("{} has no effect without an antenna with reflections (model: "
                                    "multipath)",

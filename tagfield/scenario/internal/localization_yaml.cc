@@ -104,7 +104,7 @@ Lane lane_of(YamlMap map) {
   lane.lateral_sigma_m = map.number("lateral_sigma_m", lane.lateral_sigma_m, kPositive);
   lane.heading_sigma_rad =
       radians(map.number("heading_sigma_deg", lane.heading_sigma_rad / radians(1.0), kPositive));
-  lane.both_ways = map.boolean("both_ways", lane.both_ways);
+  lane.bidirectional = map.boolean("bidirectional", lane.bidirectional);
   map.finish();
   return lane;
 }

@@ -62,8 +62,8 @@ LaserParameters laser_of(YamlMap map) {
   constexpr double kDegree = radians(1.0);
   laser.first_angle_rad = radians(map.number("first_angle_deg", laser.first_angle_rad / kDegree));
   laser.last_angle_rad = radians(map.number("last_angle_deg", laser.last_angle_rad / kDegree));
-  laser.least_range_m = map.number("least_range_m", laser.least_range_m, kNotNegative);
-  laser.most_range_m = map.number("most_range_m", laser.most_range_m, kPositive);
+  laser.min_range_m = map.number("min_range_m", laser.min_range_m, kNotNegative);
+  laser.max_range_m = map.number("max_range_m", laser.max_range_m, kPositive);
   laser.rate_hz = map.number("rate_hz", laser.rate_hz, kPositive);
   laser.sigma_m = map.number("sigma_m", laser.sigma_m, kNotNegative);
   laser.sweep_s = map.number("sweep_s", laser.sweep_s, kNotNegative);

@@ -325,11 +325,11 @@ PlanAim aim_of(YamlMap map) {
     aim.position_error_m = map.at("position_error_m").number(kPositive);
   }
   if (map.has("share")) aim.share = share_of(map.at("share"), false);
-  if (map.has("least")) {
-    const YamlValue least = map.at("least");
-    aim.least = choice(least, {"antennas", "cost"}) == 0 ? PlanAim::Least::kAntennas
-                                                         : PlanAim::Least::kCost;
-    if (!aim.share) least.fail("has no effect without 'share', which says what is enough");
+  if (map.has("minimize")) {
+    const YamlValue minimize = map.at("minimize");
+    aim.minimize = choice(minimize, {"antennas", "cost"}) == 0 ? PlanAim::Minimize::kAntennas
+                                                               : PlanAim::Minimize::kCost;
+    if (!aim.share) minimize.fail("has no effect without 'share', which says what is enough");
   }
   map.finish();
   return aim;

@@ -158,8 +158,8 @@ RadioWorldOptions radio_world_options_of(YamlMap& scenario) {
   options.materials = materials_of(scenario);
   if (!scenario.has("world")) return options;
   YamlMap world(scenario.at("world"));
-  options.least_facet_m2 =
-      world.number("least_facet_m2", options.least_facet_m2, NumberRange::kNotNegative);
+  options.min_facet_m2 =
+      world.number("min_facet_m2", options.min_facet_m2, NumberRange::kNotNegative);
   if (world.has("default_material")) {
     options.otherwise = material_named(options.materials, world.at("default_material")).name;
   }

@@ -46,7 +46,7 @@ std::string profile_file_of_antenna(const YamlValue& value);
 /// The scenario's material called `name`.
 Material material_in(const RadioWorldOptions& options, const YamlValue& name);
 
-/// The materials of the world: `world.materials`, `world.default_material`, `world.least_facet_m2`,
+/// The materials of the world: `world.materials`, `world.default_material`, `world.min_facet_m2`,
 /// and the scenario's own `materials`.
 RadioWorldOptions radio_world_options_of(YamlMap& scenario);
 

@@ -133,6 +133,17 @@ TEST(IdleKeys, ARoundObstacleHasNoHeading) {
   EXPECT_EQ(warnings_of(hall("paper", "", obstacle + "size: [1, 0.5]}\n")), Warnings{});
 }
 
+TEST(IdleKeys, AnObstacleWithoutMaterialIsForRobots) {
+  const std::string antenna_alone =
+      "model: link_budget\nduration_s: 3\nantennas:\n  - {name: a, pose: [0, 0, 1.5]}\n"
+      "tags:\n  - {id: t, position: [2, 1, 1]}\n"
+      "obstacles:\n  - {position: [3, 0], radius_m: 0.3";
+  EXPECT_EQ(warnings_of(antenna_alone + "}\n"),
+            Warnings{"8: obstacles[0] has no effect on reads: it has no material, and there is no "
+                     "robot that could notice it"});
+  EXPECT_EQ(warnings_of(antenna_alone + ", material: person}\n"), Warnings{});
+}
+
 TEST(IdleKeys, SettingsOfAntennasAndTagsAreToldWithTheirNames) {
   EXPECT_EQ(
       warnings_of(hall("link_budget", ", session: s1",

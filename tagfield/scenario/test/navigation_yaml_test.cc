@@ -56,8 +56,8 @@ TEST(NavigationYaml, TakesEveryKey) {
   const Scenario scenario =
       load("",
            "{mode: slam, start: random, map: m.yaml, keep_out: false,"
-           " laser: {beams: 361, first_angle_deg: -45, last_angle_deg: 90, least_range_m: 0.1,"
-           " most_range_m: 12, rate_hz: 20, sigma_m: 0.02, sweep_s: 0.01, pose: [0.2, 0, 0.4]},"
+           " laser: {beams: 361, first_angle_deg: -45, last_angle_deg: 90, min_range_m: 0.1,"
+           " max_range_m: 12, rate_hz: 20, sigma_m: 0.02, sweep_s: 0.01, pose: [0.2, 0, 0.4]},"
            " odometry: {alpha1: 0.1, alpha2: 0.2, alpha3: 0.3, alpha4: 0.4},"
            " mapping: {resolution_m: 0.1, particles: 5, speed_m_s: 0.6, limit_s: 99},"
            " driving: {max_speed_m_s: 1.1, max_turn_rad_s: 1.2, acceleration_m_s2: 1.3,"
@@ -70,8 +70,8 @@ TEST(NavigationYaml, TakesEveryKey) {
   EXPECT_EQ(spec.laser.beams, 361);
   EXPECT_NEAR(spec.laser.first_angle_rad, -kPi / 4.0, 1e-12);
   EXPECT_NEAR(spec.laser.last_angle_rad, kPi / 2.0, 1e-12);
-  EXPECT_EQ(spec.laser.least_range_m, 0.1);
-  EXPECT_EQ(spec.laser.most_range_m, 12.0);
+  EXPECT_EQ(spec.laser.min_range_m, 0.1);
+  EXPECT_EQ(spec.laser.max_range_m, 12.0);
   EXPECT_EQ(spec.laser.rate_hz, 20.0);
   EXPECT_EQ(spec.laser.sigma_m, 0.02);
   EXPECT_EQ(spec.laser.sweep_s, 0.01);
@@ -105,8 +105,8 @@ struct BadNumber {
 TEST(NavigationYaml, RefusesWhatIsNoUsableNumber) {
   const std::vector<BadNumber> table{
       {"laser", {"beams"}, {"1", "0", "-3", "2.5", "many", "1000000", "[1]", ".nan"}},
-      {"laser", {"most_range_m", "rate_hz"}, {"0", "-1", ".nan", ".inf", "far"}},
-      {"laser", {"least_range_m", "sigma_m", "sweep_s"}, {"-0.1", ".nan", "near"}},
+      {"laser", {"max_range_m", "rate_hz"}, {"0", "-1", ".nan", ".inf", "far"}},
+      {"laser", {"min_range_m", "sigma_m", "sweep_s"}, {"-0.1", ".nan", "near"}},
       {"laser", {"first_angle_deg", "last_angle_deg"}, {".nan", "left"}},
       {"laser", {"pose"}, {"[1, 2]", "[1, 2, .nan]", "3", "[1, 2, 3, 4]"}},
       {"odometry", {"alpha1", "alpha2", "alpha3", "alpha4"}, {"-1", ".nan", "bad"}},
@@ -130,7 +130,7 @@ TEST(NavigationYaml, RefusesWhatIsNoUsableNumber) {
 
 TEST(NavigationYaml, RefusesALaserThatCannotBe) {
   EXPECT_TRUE(holds(navigation_complaint("", "{laser: {sweep_s: 0.1}}"), "navigation.laser"));
-  EXPECT_TRUE(holds(navigation_complaint("", "{laser: {least_range_m: 40}}"), "navigation.laser"));
+  EXPECT_TRUE(holds(navigation_complaint("", "{laser: {min_range_m: 40}}"), "navigation.laser"));
   EXPECT_TRUE(
       holds(navigation_complaint("", "{laser: {first_angle_deg: 95}}"), "navigation.laser"));
 }

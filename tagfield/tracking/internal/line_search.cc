@@ -136,7 +136,7 @@ Grid lane_grid(const Pass& pass, const TrackingOptions& options, const Lane& lan
   }
   for (const double v : steps(options.min_speed_m_s, options.max_speed_m_s, 0.5 * kSpeedStep)) {
     grid.velocities.push_back(level(v * along.x(), v * along.y(), 0.0));
-    if (lane.both_ways) grid.velocities.push_back(level(-v * along.x(), -v * along.y(), 0.0));
+    if (lane.bidirectional) grid.velocities.push_back(level(-v * along.x(), -v * along.y(), 0.0));
   }
   return grid;
 }
@@ -163,8 +163,8 @@ Grid open_grid(const Pass& pass, const TrackingOptions& options) {
 }
 
 /// Whether two motions are the same within these tolerances.
-bool alike(const StraightMotion& a, const StraightMotion& b, double place_m, double speed_m_s) {
-  return (a.p_WT - b.p_WT).norm() < place_m && (a.v_WT - b.v_WT).norm() < speed_m_s;
+bool alike(const StraightMotion& a, const StraightMotion& b, double distance_m, double speed_m_s) {
+  return (a.p_WT - b.p_WT).norm() < distance_m && (a.v_WT - b.v_WT).norm() < speed_m_s;
 }
 
 /// The best velocities of each position, then the best distinct ones.
@@ -228,7 +228,7 @@ LineHypothesis fitted(const Pass& pass, const std::vector<SubAperture>& aperture
 
 bool plausible(const TrackingOptions& options, const LineHypothesis& one) {
   const double speed = one.fit.motion.v_WT.head<2>().norm();
-  if (options.lane && !options.lane->both_ways) {
+  if (options.lane && !options.lane->bidirectional) {
     const double heading = options.lane->heading_rad;
     const Eigen::Vector2d along(std::cos(heading), std::sin(heading));
     if (along.dot(one.fit.motion.v_WT.head<2>()) <= 0.0) return false;

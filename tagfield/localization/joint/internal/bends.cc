@@ -106,7 +106,7 @@ TracedReplies traced(const LocalizationProblem& problem, const std::string& tag,
 }
 
 Straightened straightened(const LocalizationProblem& problem, const Sight& sight,
-                          const TracedReplies& replies, const Vector3d& p, double least_directness,
+                          const TracedReplies& replies, const Vector3d& p, double min_directness,
                           double noise_rad) {
   Straightened straight;
   std::vector<PhaseLeft> left;
@@ -118,7 +118,7 @@ Straightened straightened(const LocalizationProblem& problem, const Sight& sight
       PhaseSample sample = series[i];
       const Bend bend =
           bend_at(of_antenna[i], corrected[i].p_WA, p, sample.frequency_hz / problem.multiple());
-      const bool is_used = bend.directness >= least_directness &&
+      const bool is_used = bend.directness >= min_directness &&
                            std::max(bend.by_place.norm(), bend.by_antenna.norm()) < kSteepestBend;
       if (!is_used) continue;
       sample.phase_rad = wrap_to_two_pi(sample.phase_rad - problem.multiple() * bend.phase_rad);

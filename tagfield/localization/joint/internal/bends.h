@@ -62,6 +62,6 @@ struct Straightened {
 /// noise of `noise_rad`.
 Straightened straightened(const LocalizationProblem& problem, const Sight& sight,
                           const TracedReplies& replies, const Eigen::Vector3d& p,
-                          double least_directness, double noise_rad);
+                          double min_directness, double noise_rad);
 
 }  // namespace tagfield

@@ -51,7 +51,7 @@ Difference difference(const TracedSearch& search, const NearReply& reply, double
   const auto c = static_cast<float>(std::cos(phase_rad));
   const auto s = static_cast<float>(std::sin(phase_rad));
   return {c * cosine + s * sine, s * cosine - c * sine,
-          (there.directness >= static_cast<float>(search.least_directness) &&
+          (there.directness >= static_cast<float>(search.min_directness) &&
            there.slope < static_cast<float>(kSteepestBend))
               .cast<float>()};
 }

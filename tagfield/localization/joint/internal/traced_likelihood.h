@@ -19,8 +19,8 @@ namespace tagfield {
 struct TracedSearch {
   const LocalizationProblem& problem;
   const Sight& sight;
-  double least_directness = 0.0;  ///< Minimum, of used replies.
-  double noise_rad = 0.0;         ///< Of the phases.
+  double min_directness = 0.0;  ///< Minimum, of used replies.
+  double noise_rad = 0.0;       ///< Of the phases.
 };
 
 /// Reads laid out once for all positions.

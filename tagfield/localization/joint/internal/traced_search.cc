@@ -86,7 +86,7 @@ constexpr std::size_t kManyReads = 300;
 struct Look {
   Look(const TracedSearch& search, std::size_t count)
       : sight(some_of(search.sight, count)),
-        search{search.problem, sight, search.least_directness, search.noise_rad},
+        search{search.problem, sight, search.min_directness, search.noise_rad},
         layout(layout_of(this->search)) {}
   Look(const Look&) = delete;
   Look& operator=(const Look&) = delete;

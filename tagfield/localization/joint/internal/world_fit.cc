@@ -55,7 +55,7 @@ void straighten_all(WorldFit& fit, const MultipathOptions& options, int threads)
     const Sight sight = sight_of(state, *fit.given[i]);
     const Vector3d p = to_position(tag.height, tag.fit.unknowns);
     next[i] = straightened(problem, sight, traced(problem, tag.id, sight.corrected, p), p,
-                           options.least_directness, state.system.noise_rad);
+                           options.min_directness, state.system.noise_rad);
   });
   fit.straight = std::move(next);
   for (std::size_t i = 0; i < fit.straight.size(); ++i) {
@@ -110,7 +110,7 @@ enum class Reach { kFurther, kAnywhere };
 
 TracedSearch search_for(const JointState& state, const Sight& sight,
                         const MultipathOptions& options) {
-  return {*state.problem, sight, options.least_directness, state.system.noise_rad};
+  return {*state.problem, sight, options.min_directness, state.system.noise_rad};
 }
 
 Fit fit_of(const WorldFit& fit, const MultipathOptions& options, std::size_t index) {
