@@ -2,9 +2,12 @@
 #include "apps/tagfield/track.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "apps/tagfield/commands.h"
@@ -223,8 +226,27 @@ void apply(const TrackArguments& arguments, TrackingSpec& spec) {
   check(options);
 }
 
+/// Warns about keys of `localization` that were given on the command line and that tracking does
+/// not use. A file's are for its other commands.
+void warn_of_unused_keys(const std::vector<std::string>& settings, Diagnostics& diagnostics) {
+  constexpr std::string_view kLocalization = "localization.";
+  const std::vector<std::string_view> used = {"offset", "pi_ambiguity", "reference_tags",
+                                              "tag_height_m", "tag_heights"};
+  for (const std::string_view setting : settings) {
+    if (setting.substr(0, kLocalization.size()) != kLocalization) continue;
+    const std::string_view rest = setting.substr(kLocalization.size());
+    const std::string_view key = rest.substr(0, rest.find_first_of(".=["));
+    if (std::find(used.begin(), used.end(), key) != used.end()) continue;
+    diagnostics.warn(
+        fmt::format("--set: localization.{} has no effect on tracks; expected one of {}, or a key "
+                    "of 'tracking'",
+                    key, fmt::join(used, ", ")));
+  }
+}
+
 ScenarioWithWorld load(const TrackArguments& arguments, const std::string& path,
                        Diagnostics& diagnostics) {
+  warn_of_unused_keys(arguments.settings, diagnostics);
   return load(ScenarioArguments{path, arguments.settings, arguments.seed, {}, arguments.world},
               diagnostics);
 }

@@ -177,6 +177,16 @@ def bad_input_is_told_in_one_line(context):
 
 
 @case
+def keys_of_localization_alone_are_warned_of(context):
+    for key, is_used in (("method=sar", False), ("max_rms_m=0.1", False), ("pi_ambiguity=false", True)):
+        out = context.run_well("track", context.shipped("conveyor"), "--set", f"localization.{key}",
+                               "--json")
+        name = key.split("=")[0]
+        warning = f"--set: localization.{name} has no effect on tracks"
+        check_equal(warning in out.err, not is_used, f"a warning of {name}")
+
+
+@case
 def options_under_their_old_names(context):
     run = track(context, context.shipped("conveyor"), name="run")
     reads = (run / "reads.csv", "--poses", run / "antenna_poses.csv")
