@@ -6,9 +6,12 @@
 
 #include <array>
 #include <cmath>
+#include <regex>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "tagfield/files/files.h"
 #include "tagfield/report/internal/color_bands.h"
 
 namespace tagfield {
@@ -34,6 +37,22 @@ TEST(StrengthColor, GetsLighterInEvenSteps) {
     const double from = lightness(strength_color(i / double{kSteps}));
     const double to = lightness(strength_color((i + 1) / double{kSteps}));
     EXPECT_NEAR(to - from, step, 0.15 * step) << i;
+  }
+}
+
+/// The live page has a table of its own, as it draws in the browser.
+TEST(StrengthColor, IsThatOfTheLivePage) {
+  const std::string script =
+      read_text_file(TAGFIELD_SOURCE_DIR "/adapters/http/page/src/colors.js");
+  const std::regex triple(R"(\[(\d+), (\d+), (\d+)\])");
+  const std::vector<std::smatch> colors(std::sregex_iterator(script.begin(), script.end(), triple),
+                                        std::sregex_iterator());
+  ASSERT_EQ(colors.size(), 9U);
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const Rgb color = strength_color(static_cast<double>(i) / 8.0);
+    for (std::size_t k = 0; k < color.size(); ++k) {
+      EXPECT_NEAR(255.0 * color[k], std::stoi(colors[i].str(k + 1)), 0.5) << i;
+    }
   }
 }
 
