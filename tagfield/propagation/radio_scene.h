@@ -20,8 +20,7 @@ namespace tagfield {
 struct Facet {
   Eigen::Vector3d normal_W;  ///< Unit vector; outwards if the surface is closed.
   double offset_m = 0.0;
-  std::vector<std::array<Eigen::Vector3d, 3>> triangles_W;  ///< [m]; empty if unbounded.
-  std::uint32_t solid = 0;                                  ///< Index into Scene::collisions.
+  std::uint32_t solid = 0;  ///< Index into Scene::collisions.
   /// Index into RadioScene::shells(): the surface that the facet is part of. Facets of open
   /// surfaces reflect on both sides; those of closed ones on the outside, or on the inside for an
   /// antenna inside that surface.
@@ -37,6 +36,8 @@ struct Facet {
   Eigen::Vector2d size_m;  ///< Infinite if unbounded.
   /// Whether it fills that rectangle.
   bool rectangular = false;
+  /// Corners (u, v) in that frame [m]; empty if unbounded.
+  std::vector<std::array<Eigen::Vector2d, 3>> triangles;
 };
 
 struct RadioSceneOptions {

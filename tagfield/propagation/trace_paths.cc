@@ -227,15 +227,12 @@ void trace_all(const RadioScene& scene, const ImageSet& images, const Eigen::Vec
   Collector found(paths);
   if (!are_ends(images.p_WA, p_WT)) return;
   trace_direct(scene, images.p_WA, p_WT, options, search, found);
-  const Eigen::Vector3f from_antenna = (p_WT - images.p_WA).cast<float>();
-  const std::size_t count = count_up_to(images, options.order);
-  for (std::size_t first = 0; first < count; first += kBeamLanes) {
-    const BeamBlock::Lanes seen = seen_from(images.beams[first / kBeamLanes], from_antenna);
-    if (!(seen >= 0.0F).any()) continue;
-    for (std::size_t i = first; i < std::min(first + kBeamLanes, count); ++i) {
-      if (!(seen[static_cast<int>(i - first)] >= 0.0F)) continue;
-      trace_mirrored(scene, images, images.images[i], p_WT, options, search, found);
-    }
+  thread_local std::vector<std::uint32_t> seen;
+  seen.clear();
+  add_seen_from(images.beams, count_up_to(images, options.order),
+                (p_WT - images.p_WA).cast<float>(), seen);
+  for (const std::uint32_t i : seen) {
+    trace_mirrored(scene, images, images.images[i], p_WT, options, search, found);
   }
 }
 

@@ -40,12 +40,12 @@ struct Image {
 /// Regions from which kBeamLanes images are visible, slightly enlarged, in single precision for a
 /// fast first test: the points p relative to the antenna [m] with normals[k]·p + offsets[k] ≥ 0 for
 /// all k. One image per lane; unused lanes of the last block are visible from nowhere.
-inline constexpr int kBeamLanes = 8;
-struct BeamBlock {
-  using Lanes = Eigen::Array<float, kBeamLanes, 1>;
+inline constexpr std::size_t kBeamLanes = 16;
+struct alignas(64) BeamBlock {
+  using Lanes = std::array<float, kBeamLanes>;
   static constexpr std::size_t kPlanes = 5;
-  std::array<std::array<Lanes, 3>, kPlanes> normals;
-  std::array<Lanes, kPlanes> offsets;
+  std::array<std::array<Lanes, 3>, kPlanes> normals{};
+  std::array<Lanes, kPlanes> offsets{};
 };
 
 /// All images of one antenna position, shared by all tags of an update.

@@ -3,6 +3,7 @@
 /// Beams: the regions that a chain of reflections reaches.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -41,8 +42,10 @@ std::vector<BeamBlock> beam_blocks(const std::vector<Image>& images,
                                    const std::vector<BeamSides>& beams,
                                    const Eigen::Vector3d& p_WA);
 
-/// For each lane, a number ≥ 0 if its image may be visible from `p` [m, relative to the antenna].
-BeamBlock::Lanes seen_from(const BeamBlock& block, const Eigen::Vector3f& p);
+/// Adds to `seen`, in ascending order, the numbers of the first `count` images that may be visible
+/// from `p` [m, relative to the antenna].
+void add_seen_from(const std::vector<BeamBlock>& blocks, std::size_t count,
+                   const Eigen::Vector3f& p, std::vector<std::uint32_t>& seen);
 
 /// Distance from `p` to the nearest point of the window [m].
 double distance_to(const Window& window, const Facet& facet, const Eigen::Vector3d& p);

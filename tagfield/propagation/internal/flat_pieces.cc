@@ -99,12 +99,12 @@ class Grower {
 };
 
 /// Approximately the best-fit plane: through the centroid, with the mean normal.
-void set_plane(Facet& facet) {
-  const Eigen::Vector3d first = vector_area(facet.triangles_W.front());
+void set_plane(const std::vector<Corners>& triangles, Facet& facet) {
+  const Eigen::Vector3d first = vector_area(triangles.front());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   double area = 0.0;
-  for (const Corners& abc : facet.triangles_W) {
+  for (const Corners& abc : triangles) {
     const Eigen::Vector3d part = vector_area(abc);
     sum += part.dot(first) < 0.0 ? -part : part;
     centroid += part.norm() * (abc[0] + abc[1] + abc[2]) / 3.0;
@@ -122,32 +122,33 @@ struct Rectangle {
   Eigen::Vector2d size = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
 };
 
-Rectangle rectangle_along(const Facet& facet, const Eigen::Vector3d& direction) {
+Rectangle rectangle_along(const std::vector<Corners>& triangles, const Facet& plane,
+                          const Eigen::Vector3d& direction) {
   Rectangle found;
-  const Eigen::Vector3d& n = facet.normal_W;
+  const Eigen::Vector3d& n = plane.normal_W;
   found.u = (direction - n.dot(direction) * n).normalized();
   found.v = n.cross(found.u);
   Eigen::Vector2d low = found.size;
   Eigen::Vector2d high = -found.size;
-  for (const Corners& abc : facet.triangles_W) {
+  for (const Corners& abc : triangles) {
     for (const Eigen::Vector3d& p : abc) {
       const Eigen::Vector2d uv(found.u.dot(p), found.v.dot(p));
       low = low.cwiseMin(uv);
       high = high.cwiseMax(uv);
     }
   }
-  found.corner = low.x() * found.u + low.y() * found.v + facet.offset_m * n;
+  found.corner = low.x() * found.u + low.y() * found.v + plane.offset_m * n;
   found.size = high - low;
   return found;
 }
 
 /// The smallest bounding rectangle along one of the triangles' edges.
-void set_rectangle(Facet& facet) {
+void set_rectangle(const std::vector<Corners>& triangles, Facet& facet) {
   Rectangle least;
-  for (std::size_t i = 0; i < std::min(facet.triangles_W.size(), kMostDirections); ++i) {
+  for (std::size_t i = 0; i < std::min(triangles.size(), kMostDirections); ++i) {
+    const Corners& abc = triangles[i];
     for (std::size_t k = 0; k < 3; ++k) {
-      const Corners& abc = facet.triangles_W[i];
-      const Rectangle found = rectangle_along(facet, abc[(k + 1) % 3] - abc[k]);
+      const Rectangle found = rectangle_along(triangles, facet, abc[(k + 1) % 3] - abc[k]);
       if (found.size.prod() < least.size.prod()) least = found;
     }
   }
@@ -158,17 +159,27 @@ void set_rectangle(Facet& facet) {
   facet.rectangular = facet.area_m2 > (1.0 - kRectangle) * least.size.prod();
 }
 
+/// In the frame of the facet's rectangle.
+std::array<Eigen::Vector2d, 3> in_frame(const Facet& facet, const Corners& corners) {
+  std::array<Eigen::Vector2d, 3> flat;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d from_corner = corners[k] - facet.corner_W;
+    flat[k] = {facet.axis_u_W.dot(from_corner), facet.axis_v_W.dot(from_corner)};
+  }
+  return flat;
+}
+
 Facet facet_of(const Grower& grower, const std::vector<std::uint32_t>& region,
                const Pieces& pieces) {
+  std::vector<Corners> triangles;
+  for (const std::uint32_t triangle : region) triangles.push_back(grower.corners(triangle));
   Facet facet;
-  for (const std::uint32_t triangle : region) {
-    facet.triangles_W.push_back(grower.corners(triangle));
-  }
   facet.shell = pieces.of_triangle[region.front()];
   const Piece& piece = pieces.pieces[facet.shell];
   facet.two_sided = !piece.closed;
-  set_plane(facet);
-  set_rectangle(facet);
+  set_plane(triangles, facet);
+  set_rectangle(triangles, facet);
+  for (const Corners& corners : triangles) facet.triangles.push_back(in_frame(facet, corners));
   if (piece.inverted) {
     facet.normal_W = -facet.normal_W;
     facet.offset_m = -facet.offset_m;

@@ -30,7 +30,7 @@ TEST(RadioScene, ABoxHasSixFacetsThatFaceOut) {
     EXPECT_TRUE(facet.rectangular);
     EXPECT_NEAR(facet.size_m.prod(), facet.area_m2, 1e-12);
     EXPECT_LT(facet.normal_W.dot(X_WC.translation), facet.offset_m);
-    EXPECT_EQ(facet.triangles_W.size(), 2U);
+    EXPECT_EQ(facet.triangles.size(), 2U);
     area += facet.area_m2;
   }
   EXPECT_NEAR(area, 22.0, 1e-12);
