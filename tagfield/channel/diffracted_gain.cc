@@ -16,12 +16,13 @@ using channel_internal::after_surface;
 using channel_internal::Complex;
 using channel_internal::crossing;
 using channel_internal::dot;
-using channel_internal::into;
+using channel_internal::field_of;
 using channel_internal::phasor;
 using channel_internal::power_gain;
 using channel_internal::reflection;
 using channel_internal::spreading;
-using channel_internal::turned_to_world;
+using channel_internal::Towards;
+using channel_internal::towards;
 using Eigen::Vector3cd;
 using Eigen::Vector3d;
 
@@ -51,8 +52,8 @@ Eigen::Matrix2cd on_face(const DiffractingEdge& edge, const WedgeFace& face, dou
   int column = 0;
   for (const Vector3d& unit : {in.along, in.other}) {
     const Vector3cd field = after_surface(unit.cast<Complex>(), pair, s, k, after);
-    matrix(0, column) = dot(field, out.along.cast<Complex>());
-    matrix(1, column++) = dot(field, out.other.cast<Complex>());
+    matrix(0, column) = dot(field, out.along);
+    matrix(1, column++) = dot(field, out.other);
   }
   return matrix;
 }
@@ -176,24 +177,21 @@ class EdgeWalk {
   const TracedBeside& beside_;
 };
 
-/// The amplitude that the tag receives [√m] of the field that the antenna sends towards the edge.
+/// The amplitude that the tag receives [√m] of the field `sent` by the antenna towards the edge;
+/// `fits` is the field that fits the tag's antenna.
 Complex taken_in(const DiffractedPath& path, const DiffractingEdge& edge, const EdgeWalk& walk,
-                 const RadioEnd& antenna, const RadioEnd& tag, const ChannelEffects& effects) {
-  const Vector3cd sent =
-      turned_to_world(antenna, field_direction(antenna.pattern, into(antenna, path.departure_W)));
+                 const Vector3cd& sent, const Vector3cd& fits, const ChannelEffects& effects) {
   Vector3cd field = sent;
   walk.cross(0, path.departure_W, field);
   const RayBasis in = basis_of(path.departure_W, edge.axis_W);
   const RayBasis out = basis_of(path.arrival_W, edge.axis_W);
   const auto across_ray = [&](const Vector3cd& e) {
-    return Eigen::Vector2cd(dot(e, in.along.cast<Complex>()), dot(e, in.other.cast<Complex>()));
+    return Eigen::Vector2cd(dot(e, in.along), dot(e, in.other));
   };
   const Leaving at = walk.diffracted({across_ray(field), across_ray(sent)});
   Vector3cd after = at.field[0] * out.along + at.field[1] * out.other;
   if (effects.polarization) {
     walk.cross(1, path.arrival_W, after);
-    const Vector3cd fits =
-        turned_to_world(tag, field_direction(tag.pattern, into(tag, -path.arrival_W)));
     return dot(after, fits);
   }
   // Crossings attenuate it as they attenuate the field's magnitude.
@@ -211,9 +209,12 @@ Complex diffracted_gain(const DiffractedPath& path, const std::vector<Diffractin
                         const TracedBeside& beside) {
   const DiffractingEdge& edge = edges[path.edge];
   const EdgeWalk walk(path, edge, world, carrier, beside);
-  const Complex taken = taken_in(path, edge, walk, antenna, tag, effects);
-  const double both = power_gain(antenna, into(antenna, path.departure_W), effects) *
-                      power_gain(tag, into(tag, -path.arrival_W), effects);
+  const Towards from_antenna = towards(antenna, path.departure_W);
+  const Towards from_tag = towards(tag, -path.arrival_W);
+  const Complex taken =
+      taken_in(path, edge, walk, field_of(antenna, from_antenna), field_of(tag, from_tag), effects);
+  const double both =
+      power_gain(antenna, from_antenna.u_A, effects) * power_gain(tag, from_tag.u_A, effects);
   // Spherical wave: 1/s' up to the edge and √(s'/(s (s + s'))) from there.
   const double spread = std::sqrt(path.length_m() / (path.before_m * path.after_m));
   return std::sqrt(both) * spreading(carrier, path.length_m()) * spread *

@@ -15,19 +15,22 @@ using channel_internal::after_surface;
 using channel_internal::Complex;
 using channel_internal::crossing;
 using channel_internal::dot;
-using channel_internal::into;
+using channel_internal::field_of;
 using channel_internal::phasor;
 using channel_internal::power_gain;
 using channel_internal::reflection;
 using channel_internal::spreading;
-using channel_internal::turned_to_world;
+using channel_internal::Towards;
+using channel_internal::towards;
 using Eigen::Vector3cd;
 using Eigen::Vector3d;
 
-/// A wave on a path: its field, and what the field would be if no surface attenuated it.
+/// A wave on a path: its field and, if polarization doesn't count, what the field would be if no
+/// surface attenuated it.
 struct Travelling {
   Vector3cd field;
   Vector3cd unhindered;
+  bool has_unhindered = false;
 };
 
 constexpr FresnelPair kAll{1.0, 1.0};
@@ -72,7 +75,9 @@ class PathWalk {
     const Vector3d after = k - 2.0 * k.dot(at.normal_W) * at.normal_W;
     const Vector3d s = across(k, at.normal_W);
     wave.field = after_surface(wave.field, pair, s, k, after);
-    wave.unhindered = after_surface(wave.unhindered, kAll, s, k, after);
+    if (wave.has_unhindered) {
+      wave.unhindered = after_surface(wave.unhindered, kAll, s, k, after);
+    }
     k = after;
   }
 
@@ -81,18 +86,16 @@ class PathWalk {
   const Carrier& carrier_;
 };
 
-Travelling leaving(const RadioEnd& antenna, const Vector3d& departure_W) {
-  const Vector3cd e =
-      turned_to_world(antenna, field_direction(antenna.pattern, into(antenna, departure_W)));
-  return {e, e};
+Travelling leaving(const RadioEnd& antenna, const Towards& at, const ChannelEffects& effects) {
+  const Vector3cd e = field_of(antenna, at);
+  return {e, e, !effects.polarization};
 }
 
 /// The amplitude that the tag receives of the wave.
-Complex coupling(const Travelling& wave, const RadioEnd& tag, const Vector3d& from_tag_W,
-                 const ChannelEffects& effects) {
+Complex coupling(const Travelling& wave, const RadioEnd& tag, const Towards& from_tag) {
   // conj(unhindered)·field: the whole field if nothing attenuated it.
-  if (!effects.polarization) return wave.unhindered.dot(wave.field);
-  return dot(wave.field, turned_to_world(tag, field_direction(tag.pattern, into(tag, from_tag_W))));
+  if (wave.has_unhindered) return wave.unhindered.dot(wave.field);
+  return dot(wave.field, field_of(tag, from_tag));
 }
 
 }  // namespace
@@ -105,14 +108,15 @@ Carrier carrier_in(const RadioWorld& world, double frequency_hz) {
 Complex path_gain(const RadioPath& path, const RadioEnd& antenna, const RadioEnd& tag,
                   const RadioWorld& world, const Carrier& carrier, const ChannelEffects& effects) {
   if (!(path.length_m > 0.0)) return 0.0;
-  Travelling wave = leaving(antenna, path.departure_W);
+  const Towards from_antenna = towards(antenna, path.departure_W);
+  const Towards from_tag = towards(tag, -path.arrival_W);
+  Travelling wave = leaving(antenna, from_antenna, effects);
   const auto nothing = [](const Travelling&) {};
   PathWalk(path, world, carrier).follow(wave, nothing, nothing);
-  const Vector3d from_tag = -path.arrival_W;
-  const double both = power_gain(antenna, into(antenna, path.departure_W), effects) *
-                      power_gain(tag, into(tag, from_tag), effects);
+  const double both =
+      power_gain(antenna, from_antenna.u_A, effects) * power_gain(tag, from_tag.u_A, effects);
   return std::sqrt(both) * spreading(carrier, path.length_m) * phasor(carrier, path.length_m) *
-         coupling(wave, tag, from_tag, effects);
+         coupling(wave, tag, from_tag);
 }
 
 Complex free_space_gain(const RadioEnd& antenna, const RadioEnd& tag, const Carrier& carrier,
@@ -120,11 +124,13 @@ Complex free_space_gain(const RadioEnd& antenna, const RadioEnd& tag, const Carr
   const Vector3d way = tag.X_WA.translation - antenna.X_WA.translation;
   const double length = way.norm();
   if (!(length > 0.0)) return 0.0;
-  const Vector3d k = way / length;
+  const Towards from_antenna = towards(antenna, way / length);
+  const Towards from_tag = towards(tag, -way / length);
   const double both =
-      power_gain(antenna, into(antenna, k), effects) * power_gain(tag, into(tag, -k), effects);
-  const Complex coupled =
-      effects.polarization ? coupling(leaving(antenna, k), tag, -k, effects) : Complex(1.0);
+      power_gain(antenna, from_antenna.u_A, effects) * power_gain(tag, from_tag.u_A, effects);
+  const Complex coupled = effects.polarization
+                              ? coupling(leaving(antenna, from_antenna, effects), tag, from_tag)
+                              : Complex(1.0);
   return std::sqrt(both) * spreading(carrier, length) * phasor(carrier, length) * coupled;
 }
 
@@ -142,11 +148,12 @@ PathBudget path_budget(const RadioPath& path, const RadioEnd& antenna, const Rad
                        const RadioWorld& world, const Carrier& carrier,
                        const ChannelEffects& effects) {
   PathBudget budget;
-  const Vector3d from_tag = -path.arrival_W;
+  const Towards from_antenna = towards(antenna, path.departure_W);
+  const Towards from_tag = towards(tag, -path.arrival_W);
   budget.spreading_db = 2.0 * to_db(spreading(carrier, path.length_m));
-  budget.antenna_db = to_db(power_gain(antenna, into(antenna, path.departure_W), effects));
-  budget.tag_db = to_db(power_gain(tag, into(tag, from_tag), effects));
-  Travelling wave = leaving(antenna, path.departure_W);
+  budget.antenna_db = to_db(power_gain(antenna, from_antenna.u_A, effects));
+  budget.tag_db = to_db(power_gain(tag, from_tag.u_A, effects));
+  Travelling wave = leaving(antenna, from_antenna, effects);
   double before = wave.field.squaredNorm();
   const auto loss = [&](const Travelling& after) {
     const double now = after.field.squaredNorm();
@@ -158,7 +165,7 @@ PathBudget path_budget(const RadioPath& path, const RadioEnd& antenna, const Rad
       .follow(
           wave, [&](const Travelling& w) { budget.crossing_db.push_back(loss(w)); },
           [&](const Travelling& w) { budget.bounce_db.push_back(loss(w)); });
-  const double taken = std::norm(coupling(wave, tag, from_tag, effects));
+  const double taken = std::norm(coupling(wave, tag, from_tag));
   budget.polarization_db = before > 0.0 ? to_db(taken / before) : 0.0;
   return budget;
 }

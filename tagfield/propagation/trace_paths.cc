@@ -230,7 +230,7 @@ void trace_all(const RadioScene& scene, const ImageSet& images, const Eigen::Vec
   thread_local std::vector<std::uint32_t> seen;
   seen.clear();
   add_seen_from(images.beams, count_up_to(images, options.order),
-                (p_WT - images.p_WA).cast<float>(), seen);
+                (p_WT - images.p_WA).cast<float>(), instruction_sets().back(), seen);
   for (const std::uint32_t i : seen) {
     trace_mirrored(scene, images, images.images[i], p_WT, options, search, found);
   }

@@ -21,18 +21,29 @@ using Eigen::Vector3d;
 inline Complex dot(const Vector3cd& a, const Vector3cd& b) {
   return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
 }
+inline Complex dot(const Vector3cd& a, const Vector3d& b) {
+  return {a.x().real() * b.x() + a.y().real() * b.y() + a.z().real() * b.z(),
+          a.x().imag() * b.x() + a.y().imag() * b.y() + a.z().imag() * b.z()};
+}
 
 inline double power_gain(const RadioEnd& end, const Vector3d& u_A, const ChannelEffects& effects) {
   return effects.patterns ? gain(end.pattern, u_A) : peak_gain(end.pattern);
 }
 
-inline Vector3d into(const RadioEnd& end, const Vector3d& u_W) {
-  return end.X_WA.rotation.conjugate() * u_W;
+/// A direction at an end of a link.
+struct Towards {
+  Eigen::Matrix3d R_WA;
+  Vector3d u_A;  ///< Unit vector, away from the antenna.
+};
+inline Towards towards(const RadioEnd& end, const Vector3d& u_W) {
+  Towards at{end.X_WA.rotation.toRotationMatrix(), {}};
+  at.u_A = at.R_WA.transpose() * u_W;
+  return at;
 }
 
-inline Vector3cd turned_to_world(const RadioEnd& end, const Vector3cd& e_A) {
-  const Eigen::Matrix3d R = end.X_WA.rotation.toRotationMatrix();
-  return R * e_A;
+/// The field that the end sends in that direction [world], of amplitude 1.
+inline Vector3cd field_of(const RadioEnd& end, const Towards& at) {
+  return at.R_WA * field_direction(end.pattern, at.u_A);
 }
 
 /// Unit normal of the plane of incidence; at normal incidence, an arbitrary choice.
@@ -46,9 +57,9 @@ inline Vector3d across(const Vector3d& k, const Vector3d& normal) {
 /// `after`.
 inline Vector3cd after_surface(const Vector3cd& field, const FresnelPair& pair, const Vector3d& s,
                                const Vector3d& before, const Vector3d& after) {
-  const Complex te = dot(field, s.cast<Complex>());
-  const Complex tm = dot(field, s.cross(before).cast<Complex>());
-  return pair.te * te * s + pair.tm * tm * s.cross(after);
+  const Complex te = pair.te * dot(field, s);
+  const Complex tm = pair.tm * dot(field, Vector3d(s.cross(before)));
+  return te * s + tm * s.cross(after);
 }
 
 inline FresnelPair reflection(const Material& material, Complex eta, double cosine,

@@ -10,21 +10,28 @@ namespace tagfield {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr Complex kJ{0.0, 1.0};
 /// At this exponent a wave has lost 8,600 dB. The limit avoids infinities; e^x is 0 anyway.
 constexpr double kMostLoss = 1000.0;
 
+/// The square root with a real part of at least 0, for |z| up to 1e150.
+Complex root_of(Complex z) {
+  const double size = std::sqrt(z.real() * z.real() + z.imag() * z.imag());
+  const double major = std::sqrt(0.5 * (size + std::abs(z.real())));
+  const double minor = major > 0.0 ? 0.5 * std::abs(z.imag()) / major : 0.0;
+  return z.real() >= 0.0 ? Complex(major, std::copysign(minor, z.imag()))
+                         : Complex(minor, std::copysign(major, z.imag()));
+}
+
 /// √(η − sin²θ), with the sign that decays into the material.
 Complex normal_component(Complex eta, double cosine) {
-  const Complex root = std::sqrt(eta - (1.0 - cosine * cosine));
+  const Complex root = root_of(eta - (1.0 - cosine * cosine));
   return root.imag() > 0.0 ? -root : root;
 }
 
 /// e^{−jq} for the complex phase q along the slab's normal.
 Complex through(Complex root, double thickness_m, double lambda_m) {
-  Complex exponent = -kJ * (kTwoPi * thickness_m / lambda_m) * root;
-  exponent.real(std::max(exponent.real(), -kMostLoss));
-  return std::exp(exponent);
+  const double wave = kTwoPi * thickness_m / lambda_m;
+  return std::polar(std::exp(std::max(wave * root.imag(), -kMostLoss)), -wave * root.real());
 }
 
 /// Includes the multiple reflections between the slab's two faces.
@@ -33,8 +40,10 @@ Complex reflection_of_slab(Complex face, Complex once) {
   return face * (1.0 - twice) / (1.0 - face * face * twice);
 }
 
-Complex transmission_of_slab(Complex face, Complex once) {
-  return (1.0 - face * face) * once / (1.0 - face * face * once * once);
+/// `relative` is `once` without the phase of the same way through air.
+Complex transmission_of_slab(Complex face, Complex once, Complex relative) {
+  const Complex twice = face * face;
+  return (1.0 - twice) * relative / (1.0 - twice * once * once);
 }
 
 /// half_space_reflection(), given the normal component.
@@ -70,9 +79,9 @@ FresnelPair slab_transmission(Complex eta, double cos_incidence, double thicknes
   const Complex once = through(root, thickness_m, lambda_m);
   if (once == 1.0) return {1.0, 1.0};
   const FresnelPair face = face_of(eta, cosine, root);
-  const Complex in_air = through(cosine, thickness_m, lambda_m);
-  return {transmission_of_slab(face.te, once) / in_air,
-          transmission_of_slab(face.tm, once) / in_air};
+  const Complex relative = once * std::polar(1.0, kTwoPi * thickness_m / lambda_m * cosine);
+  return {transmission_of_slab(face.te, once, relative),
+          transmission_of_slab(face.tm, once, relative)};
 }
 
 }  // namespace tagfield

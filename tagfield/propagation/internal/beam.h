@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "tagfield/base/lanes.h"
 #include "tagfield/propagation/trace_paths.h"
 
 namespace tagfield {
@@ -42,10 +43,11 @@ std::vector<BeamBlock> beam_blocks(const std::vector<Image>& images,
                                    const std::vector<BeamSides>& beams,
                                    const Eigen::Vector3d& p_WA);
 
-/// Adds to `seen`, in ascending order, the numbers of the first `count` images that may be visible
-/// from `p` [m, relative to the antenna].
+/// Adds to `seen`, in ascending order, the numbers of those of the first `count` images that may be
+/// visible from `p` [m, relative to the antenna]: all that are, and hardly any others. The same for
+/// each instruction set.
 void add_seen_from(const std::vector<BeamBlock>& blocks, std::size_t count,
-                   const Eigen::Vector3f& p, std::vector<std::uint32_t>& seen);
+                   const Eigen::Vector3f& p, InstructionSet set, std::vector<std::uint32_t>& seen);
 
 /// Distance from `p` to the nearest point of the window [m].
 double distance_to(const Window& window, const Facet& facet, const Eigen::Vector3d& p);

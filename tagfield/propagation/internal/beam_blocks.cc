@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "tagfield/base/lanes.h"
 #include "tagfield/propagation/internal/beam.h"
 
 namespace tagfield {
@@ -75,8 +74,7 @@ std::vector<BeamBlock> beam_blocks(const std::vector<Image>& images,
 }
 
 void add_seen_from(const std::vector<BeamBlock>& blocks, std::size_t count,
-                   const Eigen::Vector3f& p, std::vector<std::uint32_t>& seen) {
-  static const InstructionSet set = instruction_sets().back();
+                   const Eigen::Vector3f& p, InstructionSet set, std::vector<std::uint32_t>& seen) {
   const float slack = static_cast<float>(kSingle) * p.lpNorm<1>();
   const std::size_t count_of_blocks = (count + kBeamLanes - 1) / kBeamLanes;
   thread_local std::vector<float> heights;
