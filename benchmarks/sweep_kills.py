@@ -61,14 +61,20 @@ class Shards:
                 self.done.add(shard)
 
     def kill_one(self, chance):
-        """Kills a random running shard; returns False if none is running."""
+        """Kills a random running shard; returns whether one was killed before its end."""
         self.reap()
         if not self.running:
             return False
         shard = chance.choice(sorted(self.running))
         process = self.running.pop(shard)
         process.send_signal(signal.SIGKILL)
-        return process.wait() == -signal.SIGKILL or not self.done.add(shard)
+        code = process.wait()
+        if code == -signal.SIGKILL:
+            return True
+        if code != 0:
+            sys.exit(f"shard {shard} ended with {code}")
+        self.done.add(shard)
+        return False
 
 
 def killed_and_resumed(args, folder):

@@ -5,8 +5,10 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
+#include "tagfield/base/error.h"
 #include "tagfield/base/number.h"
 #include "tagfield/experiment/sweep/design.h"
 
@@ -43,6 +45,30 @@ TEST(SweepPlan, GridIsEveryCombinationTheLastKeyFastest) {
   EXPECT_EQ(plan.keys, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(value_at(plan.points[3], "b"), "y");
   EXPECT_EQ(value_at(plan.points[3], "c"), "");
+}
+
+TEST(SweepPlan, IntegersAreRounded) {
+  const auto values = [](const SweepPlan& plan) {
+    std::vector<std::string> found;
+    for (const SweepPoint& point : plan.points) found.push_back(value_at(point, "a"));
+    return found;
+  };
+  // 1, 10^0.5, 10, 10^1.5 and 100.
+  const NumberSpan steps{1.0, 100.0, true, true, 5};
+  EXPECT_EQ(values(planned(suite_with({GridDesign{{{"a", steps, {}}}}, {}, {}}))),
+            (std::vector<std::string>{"1", "3", "10", "32", "100"}));
+  // Forty strata of 0.1 from 0 to 4: five round to 0, ten each to 1, 2 and 3, five to 4.
+  const NumberSpan span{0.0, 4.0, false, true, 0};
+  const LatinHypercubeDesign hypercube{40, 7, {{"a", span, {}}}};
+  std::map<std::string, int> counts;
+  for (const std::string& value : values(planned(suite_with({hypercube, {}, {}})))) ++counts[value];
+  EXPECT_EQ(counts,
+            (std::map<std::string, int>{{"0", 5}, {"1", 10}, {"2", 10}, {"3", 10}, {"4", 5}}));
+}
+
+TEST(SweepPlan, MoreIntegerStepsThanIntegersAreRefused) {
+  const NumberSpan steps{1.0, 3.0, false, true, 5};
+  EXPECT_THROW(planned(suite_with({GridDesign{{{"a", steps, {}}}}, {}, {}})), Error);
 }
 
 TEST(SweepPlan, SuiteWithoutASweepHasAPointForEachCondition) {
