@@ -118,10 +118,10 @@ Json describe_plan(const CheckArguments& arguments, Diagnostics& diagnostics) {
   Json json = {{"kind", "plan"}, {"scenario", to_plan.loaded.scenario.name}};
   std::size_t places = 0;
   for (const PlanTags& tags : to_plan.plan.tags) places += tags.places.size();
-  json["groups_of_tags"] = to_plan.plan.tags.size();
-  json["places_of_tags"] = places;
+  json["tag_groups"] = to_plan.plan.tags.size();
+  json["tag_positions"] = places;
   json["mounts"] = to_plan.plan.mounts.size();
-  json["most_antennas"] = to_plan.plan.limits.antennas;
+  json["max_antennas"] = to_plan.plan.limits.antennas;
   std::map<std::string, std::size_t> models;
   for (const PlanMount& mount : to_plan.plan.mounts) ++models[model_of(mount.antenna)];
   json["models_of_antennas"] = models;
@@ -214,8 +214,8 @@ void print_text(const std::string& file, const Json& json) {
       fmt::print("model: {}, of {} mounts\n", model, count.get<std::size_t>());
     }
     fmt::print("plan: {} tag positions in {} groups, {} mounts, at most {} antennas\n",
-               json["places_of_tags"].get<std::size_t>(), json["groups_of_tags"].get<std::size_t>(),
-               json["mounts"].get<std::size_t>(), json["most_antennas"].get<std::size_t>());
+               json["tag_positions"].get<std::size_t>(), json["tag_groups"].get<std::size_t>(),
+               json["mounts"].get<std::size_t>(), json["max_antennas"].get<std::size_t>());
   }
   fmt::print("world: {}\n", json["world"].get<std::string>().empty()
                                 ? "none (empty space)"

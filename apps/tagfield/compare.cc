@@ -83,7 +83,7 @@ void print(const RunComparison& comparison) {
   errors("mean error [mm]", &ErrorStatistics::mean);
   errors("median error [mm]", &ErrorStatistics::median);
   errors("95 % below [mm]", &ErrorStatistics::p95);
-  errors("greatest error [mm]", &ErrorStatistics::max);
+  errors("maximum error [mm]", &ErrorStatistics::max);
   fmt::print("{}\n", comparison_sentence(comparison));
 }
 

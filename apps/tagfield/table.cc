@@ -175,10 +175,10 @@ std::string finding_line(const std::string& name, const std::optional<FindingSum
 std::string navigation_lines(const Summary& summary) {
   if (!summary.navigation) return "";
   const NavigationSummary& navigation = *summary.navigation;
-  std::string text =
-      fmt::format("goals: {} of {} reached, {} collisions, least distance to anything {:.0f} mm\n",
-                  navigation.goals_reached, navigation.goals, navigation.collisions,
-                  millimetres(navigation.closest_m));
+  std::string text = fmt::format(
+      "goals: {} of {} reached, {} collisions, minimum distance to anything {:.0f} mm\n",
+      navigation.goals_reached, navigation.goals, navigation.collisions,
+      millimetres(navigation.closest_m));
   const auto& unreached = navigation.goals_unreached;
   for (std::size_t i = 0; i < std::min(unreached.size(), kMostRows); ++i) {
     text += fmt::format("  seed {}, ({:.2f}, {:.2f}) m: {}\n", unreached[i].seed,

@@ -173,7 +173,7 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
       ->delimiter(',');
   command
       .add_option("--speed-range", arguments.speeds,
-                  "Least and greatest speed of the tags [m/s] (default 0.05 3)")
+                  "Minimum and maximum speed of the tags [m/s] (default 0.05 3)")
       ->expected(2)
       ->delimiter(',');
   // In all other commands it is the speed of simulated time.

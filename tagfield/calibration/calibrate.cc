@@ -129,10 +129,10 @@ Fit fitted(Model model, const Fit& start) {
   model.sign = start.sign;
   constexpr LevenbergMarquardt kHow{
       .most_steps = 40, .most_damping = 1e6, .least_relative_gain = 1e-7};
-  const double most_time_offset_s = 2.0 * model.options.most_time_offset_s;
+  const double max_time_offset_s = 2.0 * model.options.max_time_offset_s;
   const auto normal = [&](const Vector4& theta) { return normal_at(model, theta); };
   const auto allowed = [&](const Vector4& theta) {
-    return theta.allFinite() && std::abs(theta(3)) <= most_time_offset_s;
+    return theta.allFinite() && std::abs(theta(3)) <= max_time_offset_s;
   };
   const CircularFit<4> best = fit_angles<4>(start.theta, kHow, normal, allowed);
   fit.theta = best.unknowns;
@@ -174,7 +174,7 @@ std::vector<Fit> coarse_fits(const AntennaData& data, const CalibrationOptions& 
   std::vector<ReadInterval> some;
   for (std::size_t i = 0; i < intervals.size(); i += stride) some.push_back(intervals[i]);
   const int steps =
-      moves(data) ? static_cast<int>(std::round(options.most_time_offset_s / kTimeStep)) : 0;
+      moves(data) ? static_cast<int>(std::round(options.max_time_offset_s / kTimeStep)) : 0;
   std::vector<Fit> fits;
   for (const double sign : {1.0, -1.0}) {
     std::vector<Fit> of_sign;
@@ -341,7 +341,7 @@ std::map<std::string, AntennaData> data_of(const SamplesByTag& samples,
 void check(const CalibrationOptions& options) {
   require_positive("phase_centre_sigma_m", options.phase_centre_sigma_m);
   require_positive("time_offset_sigma_s", options.time_offset_sigma_s);
-  require_positive("most_time_offset_s", options.most_time_offset_s);
+  require_positive("max_time_offset_s", options.max_time_offset_s);
   require_positive("max_pose_gap_s", options.max_pose_gap_s);
 }
 

@@ -60,7 +60,7 @@ std::string to_yaml(const Calibration& calibration);
 struct CalibrationOptions {
   double phase_centre_sigma_m = 0.1;  ///< Prior of each component of the position.
   double time_offset_sigma_s = 0.05;  ///< Prior of the time offset.
-  double most_time_offset_s = 0.5;    ///< Largest time offset searched.
+  double max_time_offset_s = 0.5;     ///< Largest time offset searched.
   double max_pose_gap_s = 0.5;        ///< Reads between poses further apart are left out.
 };
 

@@ -101,7 +101,7 @@ std::string whole_table(const RunComparison& comparison) {
   html += error_cells(comparison, "Mean error", &ErrorStatistics::mean);
   html += error_cells(comparison, "Median error", &ErrorStatistics::median);
   html += error_cells(comparison, "95 % of errors below", &ErrorStatistics::p95);
-  html += error_cells(comparison, "Greatest error", &ErrorStatistics::max);
+  html += error_cells(comparison, "Maximum error", &ErrorStatistics::max);
   html += cells("Tags read", grouped(first.read), grouped(second.read),
                 signed_count(first.read, second.read));
   html += cells("Reads", grouped(first.reads), grouped(second.reads),

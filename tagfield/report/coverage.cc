@@ -61,8 +61,8 @@ Json to_json(const CoverageLayer& layer) {
           {"file", coverage_file(layer)},
           {"share_read", share_read(layer)},
           {"mean_probability", probability / count},
-          {"least_margin_db", most < kLeastPower_db ? Json(nullptr) : Json(least)},
-          {"greatest_margin_db", power(most)}};
+          {"min_margin_db", most < kLeastPower_db ? Json(nullptr) : Json(least)},
+          {"max_margin_db", power(most)}};
 }
 
 Json to_json(const Coverage& coverage, const TagCoverage& tag) {
@@ -96,7 +96,7 @@ Json antennas_of(const Coverage& coverage) {
   Json all = Json::array();
   for (const CoverageAntenna& antenna : coverage.antennas) {
     all.push_back({{"name", antenna.name},
-                   {"places", antenna.places_W.size()},
+                   {"positions", antenna.places_W.size()},
                    {"model", antenna.by_paper ? "paper" : "physical"}});
   }
   return all;

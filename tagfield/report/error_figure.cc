@@ -123,7 +123,8 @@ void draw_rows(Figure& figure, const std::vector<TagRow>& rows, const ErrorStati
   if (seeds > 1) {
     figure.caption += fmt::format(
         " Over {} seeds: every error is a dot, the box holds the middle half, its line is the "
-        "median, the whiskers reach to the least and the greatest; a fraction at the right says in "
+        "median, the whiskers reach to the minimum and the maximum; a fraction at the right says "
+        "in "
         "how many seeds the tag was located.",
         seeds);
   }

@@ -95,7 +95,7 @@ std::string driving_rows(const NavigationSummary& navigation) {
              fmt::format("{} of {}", grouped(navigation.goals_reached), grouped(navigation.goals)),
              "goals that it was sent to") +
          unreached_rows(navigation) +
-         row("Least distance", spoken_length(std::max(navigation.closest_m, 0.0)),
+         row("Minimum distance", spoken_length(std::max(navigation.closest_m, 0.0)),
              "between its outline and anything else") +
          row("Collisions", grouped(navigation.collisions), "times it touched anything") +
          finding_row("Unknown starts", "found out where it was", navigation.unknown_starts) +
@@ -115,7 +115,7 @@ std::string navigation_table(const Summary& summary) {
           "</tbody></table></div>\n";
   if (summary.seeds.size() > 1) {
     html += fmt::format(
-        "<p class=\"muted\">Of {} seeds: the map and the least distance are those of the worst, "
+        "<p class=\"muted\">Of {} seeds: the map and the minimum distance are those of the worst, "
         "mapping that of the first, poses, goals and losses those of all.</p>\n",
         summary.seeds.size());
   }

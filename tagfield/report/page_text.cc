@@ -166,7 +166,7 @@ std::string key_numbers(const Summary& summary) {
   if (const auto errors = error_statistics(summary)) {
     html += big("Mean error", spoken_length(errors->mean), true);
     html += big("95 % within", spoken_length(errors->p95));
-    html += big("Greatest error", spoken_length(errors->max));
+    html += big("Maximum error", spoken_length(errors->max));
   }
   if (count(summary, Verdict::kLocated) == 0 && all_moved(summary)) {
     html += big("Tags read",

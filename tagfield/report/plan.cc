@@ -149,8 +149,8 @@ std::string plan_positions_to_csv(const AntennaPlan& plan) {
 
 std::string plan_to_json(const AntennaPlan& plan) {
   PlanJson json = {
-      {"scenario", plan.scenario},    {"dwell_s", plan.dwell_s}, {"tags", plan.tags},
-      {"places", plan.places.size()}, {"options", plan.options}, {"limits", plan.limits},
+      {"scenario", plan.scenario},       {"dwell_s", plan.dwell_s}, {"tags", plan.tags},
+      {"positions", plan.places.size()}, {"options", plan.options}, {"limits", plan.limits},
       {"stopped_by", plan.stopped_by}};
   using Kind = PlannedAim::Kind;
   const auto aim = [&](Kind kind) {
@@ -161,7 +161,7 @@ std::string plan_to_json(const AntennaPlan& plan) {
   json["aim_position_error_m"] = aim(Kind::kPosition);
   json["counts"] = words_for(plan.aim);
   json["aim_share"] = plan.aim.share ? PlanJson(*plan.aim.share) : PlanJson(nullptr);
-  json["aim_least"] = plan.aim.is_for_least_cost ? "cost" : "antennas";
+  json["aim_minimize"] = plan.aim.is_for_least_cost ? "cost" : "antennas";
   json["reaches_aim"] = plan.reaches_aim;
   json["cross_limit"] = plan.cross_limit ? PlanJson(*plan.cross_limit) : PlanJson(nullptr);
   json["guaranteed_share_of_best"] =

@@ -55,8 +55,8 @@ std::size_t number_of(const Json& layouts, std::uint64_t antennas, const JsonLoc
 
 void add_places(const CsvTable& table, Json& json) {
   const std::array<std::size_t, 3> position = table.position_columns();
-  Json& places = json["places"] = Json::array();
-  for (const CsvRow& row : table.rows) places.push_back(list_of(table.position(row, position)));
+  Json& positions = json["positions"] = Json::array();
+  for (const CsvRow& row : table.rows) positions.push_back(list_of(table.position(row, position)));
   Json& percent = json["percent"] = Json::array();
   for (const Json& layout : json["layouts"]) {
     const std::size_t column = table.column(fmt::format("p_{}", layout["antennas"].size()));

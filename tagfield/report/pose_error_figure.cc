@@ -119,7 +119,7 @@ void draw_greatest(Svg& svg, const Axes& axes, const Panel& panel) {
     if (greatest == course.values.end()) continue;
     const double time = course.times_s[static_cast<std::size_t>(greatest - course.values.begin())];
     add_circle(svg, place_in(axes, time, *greatest), 3.5, styled("peak"),
-               fmt::format("greatest: {} at {:.1f} s", spoken(panel, *greatest), time));
+               fmt::format("maximum: {} at {:.1f} s", spoken(panel, *greatest), time));
   }
 }
 

@@ -155,7 +155,7 @@ TagTrack judged(const TrackingOptions& options, const Pass& pass, TagTrack resul
   }
   const double way = (best.points.back().p_WT - best.points.front().p_WT).head<2>().norm();
   if (way < kAtRest * options.min_speed_m_s * duration_of(pass)) {
-    return not_tracked(result, fmt::format("it went {:.2f} m in {:.1f} s, less than the least "
+    return not_tracked(result, fmt::format("it went {:.2f} m in {:.1f} s, less than the minimum "
                                            "speed of {} m/s: 'localize' is for tags at rest",
                                            way, duration_of(pass), options.min_speed_m_s));
   }

@@ -196,7 +196,7 @@ def options_under_their_old_names(context):
     for name in words:
         rows = read_csv(context.folder / name / "verdicts.csv")
         check_equal([row["verdict"] for row in rows], ["not_tracked"] * 12, f"{name}: verdicts")
-        check(any("less than the least speed of 2 m/s" in row["reason"] for row in rows), f"{name}: no reason is the speed")
+        check(any("less than the minimum speed of 2 m/s" in row["reason"] for row in rows), f"{name}: no reason is the speed")
     check_in("--speed MIN MAX is now --speed-range", warned["old"], "what the old name is warned of")
     check("--speed" not in warned["new"], f"warned of the new name: {warned['new']}")
 

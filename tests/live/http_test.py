@@ -260,7 +260,7 @@ def a_plan_is_shown_beside_its_layout(context):
         contract.check("GET", "/api/plan", 200, plan)
         check_equal(len(plan["layouts"][plan["chosen"]]["antennas"]), written["chosen_antennas"], "antennas")
         rows = read_csv(out / "plan_positions.csv")
-        check_equal(len(plan["places"]), len(rows), "places")
+        check_equal(len(plan["positions"]), len(rows), "positions")
         check_equal(plan["percent"][2], [round(100 * float(row["p_3"])) for row in rows], "percent with three antennas")
     # A plan of another scenario is served if requested explicitly; an invalid one is rejected immediately.
     with served(context, context.shipped(PORTAL), "--plan", out) as server:

@@ -607,14 +607,14 @@ def real_plan_is_drawn_in_place_of_the_tags(context):
         one.wait("world.paused", "it stands still")
         one.do("view.lists.show('plan'); view.look('top')")
         last = len(plan["layouts"]) - 1
-        worst = min(range(len(plan["places"])), key=lambda i: plan["percent"][0][i])
+        worst = min(range(len(plan["positions"])), key=lambda i: plan["percent"][0][i])
         seen = []
         for layout in (0, last):
             one.do("const count = at.lists.querySelector('#plan-layout'); count.value = String(arguments[0]); "
                    "count.dispatchEvent(new Event('input'))", layout)
             check_in(f"{layout + 1} antenna", one.text("lists"), "what is said of the layout")
             one.still()
-            px, py = one.project(plan["places"][worst])
+            px, py = one.project(plan["positions"][worst])
             seen.append(mean_color(one.pixels(px - 1, py - 1, 3, 3)))
         # A position that is hardly read with one antenna (grey), and read with all of them (yellow).
         check(max(seen[0]) - min(seen[0]) < 60, f"with one antenna it is {seen[0]}")

@@ -160,7 +160,8 @@ std::string heat_table(const Bench& bench) {
   }
   return html + "</tbody></table></div>\n" + heat_legend(scale) +
          "<p class=\"muted\">Mean error of the located tags [mm]; a fraction says how many were, "
-         "where not all. The winner has the least mean error of the methods that got at least 95 % "
+         "where not all. The winner has the lowest mean error of the methods that got at least 95 "
+         "% "
          "as many tags right (located, within 0.3 m) as the best; ≈ counts the others whose errors "
          "don’t differ significantly from it; the folds below name them. " +
          data_link("heatmap.csv", "Data as CSV", heat_data(bench)) + "</p>\n";

@@ -110,7 +110,7 @@ const OptionTable<FixedOptions>& fixed_options() {
                   &O::antenna_sigma_db, kAtLeastZero),
        setting<O>("fading_db", "dB", "prior scatter of RSSI by reflections", &O::fading_db,
                   kOverZero),
-       setting<O>("max_range_m", "m", "greatest distance from which a tag is read", &O::max_range_m,
+       setting<O>("max_range_m", "m", "maximum distance from which a tag is read", &O::max_range_m,
                   kOverZero),
        setting<O>("rssi_max_error_m", "m",
                   "with a larger expected error a tag is not given as located",

@@ -146,7 +146,7 @@ const OptionTable<MultipathOptions>& multipath_options() {
   using O = MultipathOptions;
   static const OptionTable<O> of{
       {setting<O>("min_directness", "",
-                  "least share of the direct path in the amplitude of replies that are used",
+                  "minimum share of the direct path in the amplitude of replies that are used",
                   &O::min_directness, {0.0, true, 1.0}),
        setting<O>("rounds", "", "of tracing and fitting", &O::rounds, kAtLeastOne)}};
   return of;

@@ -234,11 +234,11 @@ std::vector<TagEstimate> locate_by_scan(const LocalizationProblem& problem, int 
 const OptionTable<ScanOptions>& scan_options() {
   using O = ScanOptions;
   static const OptionTable<O> of{
-      {setting<O>("max_range_m", "m", "greatest distance of a tag from the scan", &O::max_range_m,
+      {setting<O>("max_range_m", "m", "maximum distance of a tag from the scan", &O::max_range_m,
                   {0.5, true, 1e3}),
        setting<O>("max_error_m", "m", "with a larger expected error a tag is not given as located",
                   &O::max_error_m, kOverZero),
-       setting<O>("min_share", "", "least share of the field's power that two paths explain",
+       setting<O>("min_share", "", "minimum share of the field's power that two paths explain",
                   &O::min_share, {0.0, true, 1.0})}};
   return of;
 }

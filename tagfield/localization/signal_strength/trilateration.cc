@@ -505,7 +505,7 @@ const OptionTable<TrilaterationOptions>& trilateration_options() {
                   &O::tag_sigma_db, kAtLeastZero),
        setting<O>("bin_m", "m", "reads over this distance of travel are averaged", &O::bin_m,
                   kOverZero),
-       setting<O>("max_range_m", "m", "greatest distance from which a tag is read", &O::max_range_m,
+       setting<O>("max_range_m", "m", "maximum distance from which a tag is read", &O::max_range_m,
                   kOverZero),
        setting<O>("rssi_max_error_m", "m",
                   "with a larger expected error a tag is not given as located",

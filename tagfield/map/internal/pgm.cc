@@ -128,7 +128,7 @@ GreyImage read_pgm(const std::string& bytes, const std::string& file) {
   GreyImage image;
   image.width = reader.number("the width", 1, kMostPgmCells);
   image.height = reader.number("the height", 1, kMostPgmCells);
-  image.white = reader.number("the greatest grey", 1, kMostWhite);
+  image.white = reader.number("the maximum grey value", 1, kMostWhite);
   if (magic == "P5") {
     read_binary(reader, image);
   } else {

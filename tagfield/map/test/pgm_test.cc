@@ -68,9 +68,9 @@ TEST(Pgm, RefusesBadHeaders) {
   EXPECT_EQ(pgm_refusal("P5 3 # 2"), "map.pgm: byte 8: ends where the height was expected");
   EXPECT_EQ(pgm_refusal("P5 3 0 255\n"), "map.pgm: byte 5: the height is not 1 to 1000000");
   EXPECT_EQ(pgm_refusal("P5 3 2 0\nABCDEF"),
-            "map.pgm: byte 7: the greatest grey is not 1 to 65535");
+            "map.pgm: byte 7: the maximum grey value is not 1 to 65535");
   EXPECT_EQ(pgm_refusal("P5 3 2 65536\nABCDEF"),
-            "map.pgm: byte 7: the greatest grey is not 1 to 65535");
+            "map.pgm: byte 7: the maximum grey value is not 1 to 65535");
   EXPECT_EQ(pgm_refusal("P5 3 2 255"), "map.pgm: byte 10: expected a space before the greys");
   EXPECT_EQ(pgm_refusal("P5 3 2 255x"), "map.pgm: byte 10: expected a space before the greys");
 }

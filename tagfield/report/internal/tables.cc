@@ -105,7 +105,7 @@ std::string single_table(const std::vector<TagRow>& rows, std::size_t shown) {
 constexpr const char* kSeveralHead =
     "<thead><tr><th scope=\"col\">Tag</th><th scope=\"col\">Located<br>in seeds</th>"
     "<th scope=\"col\">Mean<br>error [mm]</th><th scope=\"col\">Median<br>[mm]</th>"
-    "<th scope=\"col\">95 %<br>[mm]</th><th scope=\"col\">Greatest<br>[mm]</th>"
+    "<th scope=\"col\">95 %<br>[mm]</th><th scope=\"col\">Maximum<br>[mm]</th>"
     "<th scope=\"col\">Least<br>[mm]</th><th scope=\"col\">Mean expected<br>error [mm]</th>"
     "<th scope=\"col\">Mean<br>reads</th></tr></thead>\n<tbody>\n";
 

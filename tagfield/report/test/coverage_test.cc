@@ -44,7 +44,7 @@ TEST(Coverage, IsATableWithoutWhatIsNotThere) {
 TEST(Coverage, SumsUpAsJson) {
   const auto json = nlohmann::json::parse(coverage_to_json(two_cells()));
   EXPECT_EQ(json["heights"][0]["share_read"], 0.5);
-  EXPECT_EQ(json["heights"][0]["least_margin_db"], 8.0);
+  EXPECT_EQ(json["heights"][0]["min_margin_db"], 8.0);
   EXPECT_EQ(json["tag_counts"]["never"], 1);
   EXPECT_TRUE(json["tags"][0]["margin_db"].is_null());
   EXPECT_EQ(json["region_m"], (std::vector<double>{-0.5, 0.0, 0.5, 0.5}));

@@ -125,7 +125,7 @@ TEST(PoseErrorFigure, CountsTheTimeWithoutError) {
   const Figure figure = pose_error_figure(read_run_files(folder.path()));
   EXPECT_TRUE(holds(figure.svg.body, ">mean 15 mm<"));
   EXPECT_TRUE(holds(figure.svg.body, ">mean 1.00°<"));
-  EXPECT_TRUE(holds(figure.svg.body, "greatest: 30 mm at 1"));
+  EXPECT_TRUE(holds(figure.svg.body, "maximum: 30 mm at 1"));
 }
 
 TEST(PoseErrorFigure, NeedsTheTruth) {
@@ -148,7 +148,7 @@ TEST(NavigationTable, SaysInWords) {
   EXPECT_TRUE(holds(table, "by less than 14 mm, 14 mm at most"));
   EXPECT_TRUE(holds(table, "Heading off by</th><td>0.50°</td>"));
   EXPECT_TRUE(holds(table, "4 of 5"));
-  EXPECT_TRUE(holds(table, "Least distance</th><td>490 mm</td>"));
+  EXPECT_TRUE(holds(table, "Minimum distance</th><td>490 mm</td>"));
   EXPECT_TRUE(holds(table, "Not reached</th><td>(3.00, 1.50) m</td>")) << table;
   EXPECT_TRUE(holds(table, "with seed 7: no way &lt;there&gt;"));
   EXPECT_TRUE(holds(table, "Collisions</th><td>0</td>"));

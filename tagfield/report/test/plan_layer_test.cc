@@ -62,7 +62,7 @@ TEST(PlanLayer, IsThePlanThatWasWritten) {
   EXPECT_EQ(json["layouts"][1]["antennas"][1]["position"], nlohmann::json({1.0, 2.0, 3.0}));
   EXPECT_EQ(json["layouts"][1]["antennas"][1]["boresight"], nlohmann::json({0.0, 0.0, -1.0}));
   EXPECT_EQ(json["layouts"][0]["read"][1], 0.504 * 8.0);
-  EXPECT_EQ(json["places"], nlohmann::json({{0.0, 0.0, 1.0}, {2.0, 1.0, 2.0}}));
+  EXPECT_EQ(json["positions"], nlohmann::json({{0.0, 0.0, 1.0}, {2.0, 1.0, 2.0}}));
   EXPECT_EQ(json["percent"], nlohmann::json({{50, 100}, {100, 100}}));
   EXPECT_EQ(json["colors"].size(), json["edges"].size() + 1);
 }

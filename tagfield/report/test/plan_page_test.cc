@@ -81,7 +81,7 @@ TEST(AntennaPlan, HoldsBoundsOnPlaces) {
   EXPECT_NE(table.find("1.0000,1.0000,0.3100,0.1100\n"), std::string::npos) << table;
   const auto json = nlohmann::json::parse(plan_to_json(plan));
   EXPECT_EQ(json["aim_position_error_m"], 0.25);
-  EXPECT_EQ(json["aim_least"], "cost");
+  EXPECT_EQ(json["aim_minimize"], "cost");
   const std::string page = plan_page(plan, plan_figures(plan, {}));
   EXPECT_NE(page.find("each tag locatable to within 0.25 m in 5 s, to 90 % at the least cost"),
             std::string::npos);

@@ -91,7 +91,7 @@ void add_power_settings(std::vector<Setting<AntennaDraft>>& all) {
                   "receiving antenna in the sending one's frame: x y z "
                   "roll pitch yaw; else one antenna does both"},
                  set_receive_pose});
-  all.push_back({{"reflection_order", "", "most reflections of a path, 0 to 3"},
+  all.push_back({{"reflection_order", "", "maximum number of reflections of a path, 0 to 3"},
                  [](D& d, const std::string& text) { d.model.reflection_order = whole_in(text); }});
   all.push_back(word<D>("diffraction", {"off", "on"}, "whether waves bend around edges",
                         [](D& d, std::size_t i) { d.model.diffraction = i == 1; }));
@@ -146,7 +146,7 @@ void add_receiver_settings(std::vector<Setting<AntennaDraft>>& all) {
     all.push_back(number<D>(key, unit, meaning,
                             [member](D& d) -> double& { return d.model.hardware.*member; }));
   };
-  of_hardware("sensitivity_dbm", "dBm", "least power of a reply that is heard",
+  of_hardware("sensitivity_dbm", "dBm", "minimum power of a reply that is heard",
               &ReaderHardware::sensitivity_dbm);
   of_hardware("noise_figure_db", "dB", "of the receiver, its own carrier's leakage included",
               &ReaderHardware::noise_figure_db);
@@ -207,8 +207,8 @@ void add_inventory_settings(std::vector<Setting<AntennaDraft>>& all) {
                    }});
   };
   whole("start_q", "Q of the first round, which has 2^Q slots", &InventorySettings::start_q);
-  whole("min_q", "least Q", &InventorySettings::min_q);
-  whole("max_q", "greatest Q", &InventorySettings::max_q);
+  whole("min_q", "minimum Q", &InventorySettings::min_q);
+  whole("max_q", "maximum Q", &InventorySettings::max_q);
   const auto real = [&](const char* key, const char* unit, const char* meaning,
                         double InventorySettings::*member) {
     all.push_back(number<D>(key, unit, meaning,
@@ -249,7 +249,7 @@ const std::vector<Setting<TagModel>>& tag_table() {
   static const std::vector<Setting<TagModel>> all = [] {
     std::vector<Setting<TagModel>> table;
     add_pattern_settings(table);
-    table.push_back(number<TagModel>("sensitivity_dbm", "dBm", "least power at which it replies",
+    table.push_back(number<TagModel>("sensitivity_dbm", "dBm", "minimum power at which it replies",
                                      [](TagModel& t) -> double& { return t.sensitivity_dbm; }));
     table.push_back(number<TagModel>("modulation_db", "dB", "backscattered over absorbed power",
                                      [](TagModel& t) -> double& { return t.modulation_db; }));

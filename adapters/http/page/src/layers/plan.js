@@ -62,12 +62,12 @@ export class PlanLayer {
     this.stage.invalidate();
   }
 
-  #cubesOf({places}) {
+  #cubesOf({positions}) {
     const cubes = new InstancedMesh(
       new BoxGeometry(CUBE_M, CUBE_M, CUBE_M),
-      new MeshBasicMaterial({transparent: true, opacity: 0.95}), places.length);
+      new MeshBasicMaterial({transparent: true, opacity: 0.95}), positions.length);
     cubes.frustumCulled = false;
-    places.forEach((place, i) => cubes.setMatrixAt(i, new Matrix4().makeTranslation(...place)));
+    positions.forEach((p, i) => cubes.setMatrixAt(i, new Matrix4().makeTranslation(...p)));
     this.stage.scene.add(cubes);
     return cubes;
   }
