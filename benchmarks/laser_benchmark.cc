@@ -120,7 +120,7 @@ float intersect_one(RTCScene scene, const Ray& ray) {
   hit.ray.dir_x = ray.direction.x();
   hit.ray.dir_y = ray.direction.y();
   hit.ray.dir_z = ray.direction.z();
-  hit.ray.tfar = ray.most_m;
+  hit.ray.tfar = ray.max_m;
   hit.ray.mask = ~0U;
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
 #if TAGFIELD_EMBREE >= 4

@@ -10,12 +10,12 @@
 namespace tagfield::fuzz {
 namespace {
 
-constexpr std::size_t kMostRequests = 50;
-constexpr std::size_t kMostBody = std::size_t{1} << 16U;
+constexpr std::size_t kMaxRequests = 50;
+constexpr std::size_t kMaxBody = std::size_t{1} << 16U;
 
 std::string line_of(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
-  std::string line(text.substr(0, std::min(end, kMostBody)));
+  std::string line(text.substr(0, std::min(end, kMaxBody)));
   text.remove_prefix(std::min(text.size(), end + 1));
   return line;
 }
@@ -27,7 +27,7 @@ void ask(std::string_view text) {
   world.attach(steps);
   http::Api api({}, hall, 1);
   const std::atomic<bool> stop{true};  // Long computations are skipped.
-  for (std::size_t i = 0; i < kMostRequests && !text.empty(); ++i) {
+  for (std::size_t i = 0; i < kMaxRequests && !text.empty(); ++i) {
     const std::string request = line_of(text);
     const std::string body = line_of(text);
     const std::size_t space = std::min(request.find(' '), request.size());

@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return fuzz::refused_or_taken([&] {
     Diagnostics unheard;
     BagOptions options;
-    if (data[0] >= 128) options.most_reads = 0;
+    if (data[0] >= 128) options.max_reads = 0;
     const BagRecording bag = read_bag(path, options, unheard);
     if (!bag.untold) return;
     std::size_t reads = 0;

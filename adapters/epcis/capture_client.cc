@@ -23,12 +23,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLeastDelay(1000);
-constexpr milliseconds kMostDelay(30'000);
+constexpr milliseconds kMinDelay(1000);
+constexpr milliseconds kMaxDelay(30'000);
 /// Interval between checks of whether to give up.
 constexpr milliseconds kLook(50);
 /// Length of a response in messages.
-constexpr std::size_t kMostAnswer = 300;
+constexpr std::size_t kMaxAnswer = 300;
 
 /// The URL without user and password, for messages.
 std::string shown(const std::string& url) {
@@ -134,8 +134,7 @@ class Connection {
     curl_.easy_getinfo(handle_, CURLINFO_RESPONSE_CODE, &answer.status);
     curl_off_t wait_s = 0;
     curl_.easy_getinfo(handle_, CURLINFO_RETRY_AFTER, &wait_s);
-    answer.wait =
-        std::min(milliseconds(1000 * std::clamp<curl_off_t>(wait_s, 0, 3600)), kMostDelay);
+    answer.wait = std::min(milliseconds(1000 * std::clamp<curl_off_t>(wait_s, 0, 3600)), kMaxDelay);
     answer.text = as_one_line(text_);
     return answer;
   }
@@ -143,7 +142,7 @@ class Connection {
  private:
   static std::size_t take(char* bytes, std::size_t one, std::size_t count, void* self) {
     std::string& text = static_cast<Connection*>(self)->text_;
-    text.append(bytes, std::min(one * count, kMostAnswer - std::min(text.size(), kMostAnswer)));
+    text.append(bytes, std::min(one * count, kMaxAnswer - std::min(text.size(), kMaxAnswer)));
     return one * count;
   }
   /// As curl_easy_perform(), which would check is_ending_ only once a second.
@@ -197,7 +196,7 @@ class CaptureClient::Impl {
       return;
     }
     waiting_.push_back(event);
-    if (waiting_.size() + posted_ > options_.most_events) lose_oldest();
+    if (waiting_.size() + posted_ > options_.max_events) lose_oldest();
     changed_.notify_all();
   }
 
@@ -266,7 +265,7 @@ class CaptureClient::Impl {
     if (is_success(answer)) {
       counts_.captured += events.size();
       if (std::exchange(was_away_, false)) warn("it accepts events again");
-      delay_ = kLeastDelay;
+      delay_ = kMinDelay;
       said_something();
     } else if (answer.status == 413 && events.size() > 1) {
       most_ = std::max<std::size_t>(1, events.size() / 2);
@@ -277,7 +276,7 @@ class CaptureClient::Impl {
       if (!std::exchange(was_away_, true)) warn(to_string(answer) + "; trying again");
       const milliseconds wait = answer.wait.count() > 0 ? answer.wait : delay_;
       changed_.wait_for(lock, wait, [this] { return is_ending_.load(); });
-      delay_ = std::min(2 * delay_, kMostDelay);
+      delay_ = std::min(2 * delay_, kMaxDelay);
     } else {
       if (counts_.refused == 0) warn("refuses: " + to_string(answer));
       counts_.refused += events.size();
@@ -294,7 +293,7 @@ class CaptureClient::Impl {
   void lose_oldest() {
     if (counts_.lost == 0) {
       warn(fmt::format("the queue of {} events is full: the oldest are lost from now on",
-                       options_.most_events));
+                       options_.max_events));
     }
     waiting_.pop_front();
     ++counts_.lost;
@@ -331,7 +330,7 @@ class CaptureClient::Impl {
   bool was_away_ = false;
   bool is_finished_ = false;
   std::atomic<bool> is_ending_ = false;
-  milliseconds delay_ = kLeastDelay;
+  milliseconds delay_ = kMinDelay;
   std::thread thread_;
 };
 

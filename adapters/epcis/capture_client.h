@@ -15,7 +15,7 @@ namespace tagfield {
 struct CaptureOptions {
   /// Events that are buffered while the repository is unreachable or slow. When the buffer is full,
   /// the oldest are dropped.
-  std::size_t most_events = 100'000;
+  std::size_t max_events = 100'000;
   /// Maximum per document.
   std::size_t events_per_document = 500;
   /// Additional header lines of each request, "Name: value", such as an API key that the repository

@@ -13,7 +13,7 @@ namespace tagfield {
 namespace {
 
 /// Maximum speed for catching up, if something blocked the joint or it started elsewhere [m/s].
-constexpr double kMostSpeed = 2.0;
+constexpr double kMaxSpeed = 2.0;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ LiftDrive::LiftDrive(gazebo::physics::Model& model, const std::string& joint, do
 
 void LiftDrive::go(double position, double seconds) {
   const double speed = (position - joint_->Position(0)) / seconds;
-  run_motor(*joint_, std::clamp(speed, -kMostSpeed, kMostSpeed), force_n_);
+  run_motor(*joint_, std::clamp(speed, -kMaxSpeed, kMaxSpeed), force_n_);
 }
 
 double LiftDrive::position() const { return joint_->Position(0); }

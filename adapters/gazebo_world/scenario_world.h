@@ -24,7 +24,7 @@ struct GazeboWorldOptions {
 
 /// Up to this many tags at rest get a model each, so that they can be seen and moved individually;
 /// more are combined into one model with a table, as many models slow Gazebo down.
-inline constexpr std::size_t kMostTagModels = 100;
+inline constexpr std::size_t kMaxTagModels = 100;
 
 /// The text of a `.world` file: the scenario's own world, or a floor and a sun if it has none, with
 /// the scenario's robots, antennas and tags, and with the world's materials if antennas have

@@ -23,14 +23,14 @@ namespace tagfield::http {
 namespace {
 
 /// Halls extend to 100 km at most, as in scenarios.
-constexpr double kMostPlace_m = 1e5;
-constexpr double kMostStep_s = 1e6;
-constexpr std::size_t kMostCoverageCells = 40'000;
-constexpr double kLeastCell_m = 0.25;  ///< Default minimum.
+constexpr double kMaxPlace_m = 1e5;
+constexpr double kMaxStep_s = 1e6;
+constexpr std::size_t kMaxCoverageCells = 40'000;
+constexpr double kMinCell_m = 0.25;  ///< Default minimum.
 /// Limits on what clients can add to the scenario.
-constexpr std::size_t kMostTags = 200'000;
-constexpr std::size_t kMostAntennas = 1'000;
-constexpr std::size_t kMostObstacles = 10'000;
+constexpr std::size_t kMaxTags = 200'000;
+constexpr std::size_t kMaxAntennas = 1'000;
+constexpr std::size_t kMaxObstacles = 10'000;
 
 RigidTransform pose_of(const std::vector<double>& n) {
   RigidTransform X = from_translation({n[0], n[1], n[2]});
@@ -41,7 +41,7 @@ RigidTransform pose_of(const std::vector<double>& n) {
 }
 
 RigidTransform place_of(JsonArguments& body) {
-  const std::vector<double> p = body.numbers("position", 3, kMostPlace_m);
+  const std::vector<double> p = body.numbers("position", 3, kMaxPlace_m);
   return from_translation({p[0], p[1], p[2]});
 }
 
@@ -96,7 +96,7 @@ void require_notice(const LiveWorld& world) {
 ObstacleSpec obstacle_of(JsonArguments& body, const LiveWorld& world) {
   ObstacleSpec obstacle;
   obstacle.name = body.text("name");
-  const std::vector<double> p = body.numbers("position", 2, kMostPlace_m);
+  const std::vector<double> p = body.numbers("position", 2, kMaxPlace_m);
   obstacle.motion = {{Time{}, from_translation({p[0], p[1], 0.0})}};
   if (body.has("radius") == body.has("size")) {
     throw Error("either 'radius' (round) or 'size' ([length, width]) is needed");
@@ -130,7 +130,7 @@ double reach_of(double range_m) { return std::min(range_m, 100.0); }
 /// The smallest cell size within the limit on their number, with a small margin, in whole
 /// centimetres.
 double fitting_cell(double range_m) {
-  const double most_in_a_row = std::sqrt(static_cast<double>(kMostCoverageCells)) - 2.0;
+  const double most_in_a_row = std::sqrt(static_cast<double>(kMaxCoverageCells)) - 2.0;
   return std::ceil(100.0 * 2.0 * reach_of(range_m) / most_in_a_row) / 100.0;
 }
 
@@ -138,7 +138,7 @@ double fitting_cell(double range_m) {
 CoverageGrid grid_around(const Eigen::Vector3d& p_WA, double range_m, double cell_m) {
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_of(range_m));
   const Eigen::AlignedBox2d region(p_WA.head<2>() - reach, p_WA.head<2>() + reach);
-  return grid_over(region, cell_m, kMostCoverageCells);
+  return grid_over(region, cell_m, kMaxCoverageCells);
 }
 
 double number_in(const Target& target, const std::string& key, double least, double most,
@@ -177,7 +177,7 @@ CoverageQuestion coverage_question(const LiveWorld& world, const Target& target,
   request.heights_m = {question.height_m};
   const double range_m = antenna_json(antenna.spec, X_WA, 1)["range"].get<double>();
   const double cell_m =
-      number_in(target, "cell", 0.01, 10.0, std::max(kLeastCell_m, fitting_cell(range_m)));
+      number_in(target, "cell", 0.01, 10.0, std::max(kMinCell_m, fitting_cell(range_m)));
   request.grid = grid_around(X_WA.translation, range_m, cell_m);
   request.seed = seed;
   return question;
@@ -189,7 +189,7 @@ ApiResponse coverage_response(const CoverageQuestion& question) {
   Json margins = Json::array();
   Json probabilities = Json::array();
   for (const CoverageCell& cell : coverage.layers.front().cells) {
-    const bool has_power = cell.margin_db > kLeastPower_db;
+    const bool has_power = cell.margin_db > kMinPower_db;
     margins.push_back(has_power ? Json(std::round(cell.margin_db * 100.0) / 100.0) : Json(nullptr));
     probabilities.push_back(std::round(cell.probability * 1e4) / 1e4);
   }
@@ -288,7 +288,7 @@ class Api::Impl {
     return done(call.world);
   }
   ApiAnswer step(Call& call) {
-    const double seconds = call.body.number("seconds", 1e-6, kMostStep_s);
+    const double seconds = call.body.number("seconds", 1e-6, kMaxStep_s);
     call.body.finish();
     call.world.advance(duration_from_seconds(seconds));
     return done(call.world);
@@ -301,7 +301,7 @@ class Api::Impl {
   }
 
   ApiAnswer add_tag(Call& call) {
-    require_room(call.world.scenario().tags, kMostTags, "tags");
+    require_room(call.world.scenario().tags, kMaxTags, "tags");
     const TagSpec tag = tag_of(call.body, call.world);
     call.body.finish();
     call.world.add_tag(tag);
@@ -332,12 +332,12 @@ class Api::Impl {
   }
 
   ApiAnswer add_antenna(Call& call) {
-    require_room(call.world.antennas(), kMostAntennas, "antennas");
+    require_room(call.world.antennas(), kMaxAntennas, "antennas");
     AntennaSpec added;
     added.parameters = antenna_in(call.world, call.body.text("like")).spec.parameters;
     added.parameters.name = call.body.text("name");
     if (call.body.has("reader")) added.parameters.reader = call.body.text("reader");
-    added.X_PA = pose_of(call.body.numbers("pose", 6, kMostPlace_m));
+    added.X_PA = pose_of(call.body.numbers("pose", 6, kMaxPlace_m));
     call.body.finish();
     call.world.add_antenna(added);
     return done(call.world);
@@ -347,7 +347,7 @@ class Api::Impl {
     return done(call.world);
   }
   ApiAnswer move_antenna(Call& call) {
-    const RigidTransform X_WA = pose_of(call.body.numbers("pose", 6, kMostPlace_m));
+    const RigidTransform X_WA = pose_of(call.body.numbers("pose", 6, kMaxPlace_m));
     call.body.finish();
     call.world.move_antenna(name_in(call), X_WA);
     return done(call.world);
@@ -364,7 +364,7 @@ class Api::Impl {
   }
 
   ApiAnswer add_obstacle(Call& call) {
-    require_room(call.world.scenario().obstacles, kMostObstacles, "obstacles");
+    require_room(call.world.scenario().obstacles, kMaxObstacles, "obstacles");
     require_notice(call.world);
     const ObstacleSpec obstacle = obstacle_of(call.body, call.world);
     call.body.finish();

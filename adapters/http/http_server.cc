@@ -16,7 +16,7 @@ namespace {
 
 using asio::ip::tcp;
 
-constexpr int kMostConnections = 512;
+constexpr int kMaxConnections = 512;
 constexpr std::chrono::milliseconds kRest(100);
 
 tcp::endpoint endpoint_of(const HttpOptions& options) {
@@ -76,7 +76,7 @@ class HttpServer::Impl {
     acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       // Excess connections are refused; if the machine is out of file descriptors, it pauses.
-      if (!error && context_.connections < kMostConnections) {
+      if (!error && context_.connections < kMaxConnections) {
         socket.set_option(tcp::no_delay(true), error);
         serve_connection(context_, std::move(socket));
       }

@@ -11,7 +11,7 @@
 namespace tagfield::http {
 namespace {
 
-constexpr std::size_t kMostText = 1000;
+constexpr std::size_t kMaxText = 1000;
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
@@ -47,10 +47,9 @@ std::string JsonArguments::text(const std::string& key) {
   const nlohmann::json& value = at(key);
   if (!value.is_string()) throw Error(fmt::format("'{}' must be text", key));
   auto text = value.get<std::string>();
-  if (text.empty() || text.size() > kMostText ||
-      std::any_of(text.begin(), text.end(), is_control)) {
+  if (text.empty() || text.size() > kMaxText || std::any_of(text.begin(), text.end(), is_control)) {
     throw Error(
-        fmt::format("'{}' must have 1 to {} bytes without control characters", key, kMostText));
+        fmt::format("'{}' must have 1 to {} bytes without control characters", key, kMaxText));
   }
   return text;
 }

@@ -18,8 +18,8 @@
 namespace tagfield::http {
 namespace {
 
-constexpr std::size_t kMostReads = 200'000;
-constexpr std::size_t kMostPoses = 100'000;  ///< Per antenna or robot.
+constexpr std::size_t kMaxReads = 200'000;
+constexpr std::size_t kMaxPoses = 100'000;  ///< Per antenna or robot.
 
 /// Short numbers: a tenth of a millimetre, a millisecond, a hundredth of a decibel are enough for
 /// display.
@@ -38,7 +38,7 @@ double short_time(Time stamp) { return to_decimals(to_seconds(stamp), 1e4); }
 Json track_json(const Trajectory& poses) {
   Json times = Json::array();
   Json all = Json::array();
-  const std::size_t every = 1 + poses.size() / kMostPoses;
+  const std::size_t every = 1 + poses.size() / kMaxPoses;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i % every != 0 && i + 1 != poses.size()) continue;
     times.push_back(short_time(poses[i].stamp));
@@ -120,7 +120,7 @@ Json tags_of(const RunFiles& run, Numbers& numbers) {
 Json reads_of(const RunFiles& run, Numbers& tags, std::size_t known_tags, Numbers& antennas) {
   Json json;
   for (const char* key : {"t", "tag", "antenna", "rssi", "phase"}) json[key] = Json::array();
-  const std::size_t every = 1 + run.reads.size() / kMostReads;
+  const std::size_t every = 1 + run.reads.size() / kMaxReads;
   for (std::size_t i = 0; i < run.reads.size(); i += every) {
     const TagRead& read = run.reads[i];
     const std::size_t tag = tags.of(read.tag);

@@ -16,7 +16,7 @@ namespace {
 /// Resolution of a beam's grid: fine enough for its half-power contour, small enough for a page.
 constexpr int kPolarSteps = 36;
 constexpr int kAzimuthSteps = 24;
-constexpr double kLeastGain_db = -40.0;
+constexpr double kMinGain_db = -40.0;
 
 Json mesh_json(const TriangleMesh& mesh) {
   Json vertices = Json::array();
@@ -169,7 +169,7 @@ Json beam_json(const AntennaParameters& antenna) {
       const Eigen::Vector3d u_A(std::cos(off), std::sin(off) * std::cos(about),
                                 std::sin(off) * std::sin(about));
       const double gain_db = to_db(gain(model->antenna, u_A) / peak);
-      row.push_back(std::round(std::max(gain_db, kLeastGain_db) * 100.0) / 100.0);
+      row.push_back(std::round(std::max(gain_db, kMinGain_db) * 100.0) / 100.0);
     }
     gains.push_back(std::move(row));
   }

@@ -170,15 +170,15 @@ Ports ports_of(const LiveWorld& world, const std::string& reader, const Ports& b
 }
 
 std::vector<double> powers_of(const Ports& ports) {
-  double most_dbm = 0.0;
+  double max_dbm = 0.0;
   bool any = false;
   for (const LiveAntenna& antenna : ports.antennas) {
     const auto dbm = transmit_power_dbm(antenna.spec.parameters);
     if (!dbm) continue;
-    most_dbm = any ? std::max(most_dbm, *dbm) : *dbm;
+    max_dbm = any ? std::max(max_dbm, *dbm) : *dbm;
     any = true;
   }
-  return any ? power_table(most_dbm) : std::vector<double>{kPaperPower_dbm};
+  return any ? power_table(max_dbm) : std::vector<double>{kPaperPower_dbm};
 }
 
 std::vector<double> channels_of(const Ports& ports) {

@@ -12,11 +12,11 @@ namespace tagfield::llrp {
 namespace {
 
 /// Reports kept for a disconnected client.
-constexpr std::size_t kMostPending = 10'000;
+constexpr std::size_t kMaxPending = 10'000;
 /// TagReportData per message.
-constexpr std::size_t kMostReportBytes = 32'000;
-constexpr std::size_t kMostRoSpecs = 32;
-constexpr std::size_t kMostAccessSpecs = 1024;
+constexpr std::size_t kMaxReportBytes = 32'000;
+constexpr std::size_t kMaxRoSpecs = 32;
+constexpr std::size_t kMaxAccessSpecs = 1024;
 constexpr double kFullLevel = 0.8;
 
 // Messages (§16.3) and their responses.
@@ -230,7 +230,7 @@ void LlrpReader::add_ro_spec(LiveWorld& world, const Message& message, ByteWrite
   if (ro_specs_.count(spec.id) > 0) {
     throw Fault(Status::kFieldError, fmt::format("there is a ROSpec {} already", spec.id));
   }
-  require_room(ro_specs_, kMostRoSpecs, "ROSpecs");
+  require_room(ro_specs_, kMaxRoSpecs, "ROSpecs");
   for (const AiSpec& ai : spec.specs) check_duty(world, ai);
   ro_specs_[spec.id].spec = spec;
   write_ok(out);
@@ -558,7 +558,7 @@ void LlrpReader::add_access_spec(LiveWorld& /*world*/, const Message& message, B
   if (access_specs_.count(spec.id) > 0) {
     throw Fault(Status::kFieldError, fmt::format("there is an AccessSpec {} already", spec.id));
   }
-  require_room(access_specs_, kMostAccessSpecs, "AccessSpecs");
+  require_room(access_specs_, kMaxAccessSpecs, "AccessSpecs");
   if (spec.antenna > ports_.antennas.size()) {
     throw Fault(Status::kFieldError, fmt::format("there is no antenna {}", spec.antenna));
   }
@@ -592,7 +592,7 @@ void LlrpReader::get_access_specs(LiveWorld& /*world*/, const Message& /*message
 
 void LlrpReader::report_gathered(Running& running) {
   for (Bytes& report : running.gathering.take()) pending_.push_back(std::move(report));
-  while (pending_.size() > kMostPending && (!line_ || is_holding_)) {
+  while (pending_.size() > kMaxPending && (!line_ || is_holding_)) {
     pending_.pop_front();
     ++dropped_;
   }
@@ -602,7 +602,7 @@ void LlrpReader::flush() {
   if (!line_ || is_holding_) return;
   while (!pending_.empty()) {
     ByteWriter body;
-    while (!pending_.empty() && body.written().size() < kMostReportBytes) {
+    while (!pending_.empty() && body.written().size() < kMaxReportBytes) {
       body.bytes(pending_.front());
       pending_.pop_front();
     }

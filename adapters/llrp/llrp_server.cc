@@ -28,7 +28,7 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 
 /// Bytes queued for a client.
-constexpr std::size_t kMostWaiting = std::size_t{4} << 20U;
+constexpr std::size_t kMaxWaiting = std::size_t{4} << 20U;
 /// Time limit for the rest of a message, and for a client to receive what was written.
 constexpr std::chrono::seconds kPatience(30);
 constexpr std::chrono::milliseconds kRest(100);
@@ -75,7 +75,7 @@ class ClientSession final : public ClientLine, public std::enable_shared_from_th
   }
   double level() override {
     const std::lock_guard<std::mutex> guard(lock_);
-    return static_cast<double>(waiting_) / static_cast<double>(kMostWaiting);
+    return static_cast<double>(waiting_) / static_cast<double>(kMaxWaiting);
   }
   std::int64_t take_dropped() override {
     const std::lock_guard<std::mutex> guard(lock_);
@@ -90,7 +90,7 @@ class ClientSession final : public ClientLine, public std::enable_shared_from_th
 
   /// To be called with the lock held.
   void drop_oldest() {
-    for (auto entry = queue_.begin(); entry != queue_.end() && waiting_ > kMostWaiting;) {
+    for (auto entry = queue_.begin(); entry != queue_.end() && waiting_ > kMaxWaiting;) {
       if (!entry->is_report) {
         ++entry;
         continue;

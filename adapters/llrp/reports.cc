@@ -10,7 +10,7 @@ namespace tagfield::llrp {
 namespace {
 
 /// More than any reader's buffer holds; reports are then sent regardless of the trigger.
-constexpr std::size_t kMostGathered = 10'000;
+constexpr std::size_t kMaxGathered = 10'000;
 constexpr double kPhaseSteps = 4096.0;
 
 std::int16_t clamped(double value) {
@@ -132,7 +132,7 @@ void ReportGathering::add(const TagReport& report) {
 
 bool ReportGathering::is_full() const {
   const bool counts = spec_.trigger != 0 && spec_.n > 0;
-  return reports_.size() >= (counts ? std::size_t{spec_.n} : kMostGathered);
+  return reports_.size() >= (counts ? std::size_t{spec_.n} : kMaxGathered);
 }
 
 std::vector<Bytes> ReportGathering::take() {

@@ -7,7 +7,7 @@
 namespace tagfield::llrp {
 namespace {
 
-constexpr double kLeastPower_dbm = 10.0;
+constexpr double kMinPower_dbm = 10.0;
 constexpr double kUsualPower_dbm = 30.0;
 constexpr double kStep_db = 0.25;
 
@@ -37,10 +37,10 @@ const RfMode* find_mode(std::uint16_t id) {
   return found == all.end() ? nullptr : &*found;
 }
 
-std::vector<double> power_table(double most_dbm) {
+std::vector<double> power_table(double max_dbm) {
   std::vector<double> table;
-  const double most = std::max(most_dbm, kUsualPower_dbm);
-  for (double dbm = std::min(kLeastPower_dbm, most_dbm); dbm <= most + 1e-9; dbm += kStep_db) {
+  const double most = std::max(max_dbm, kUsualPower_dbm);
+  for (double dbm = std::min(kMinPower_dbm, max_dbm); dbm <= most + 1e-9; dbm += kStep_db) {
     table.push_back(dbm);
   }
   return table;

@@ -22,7 +22,7 @@ const std::vector<RfMode>& rf_modes();
 const RfMode* find_mode(std::uint16_t id);
 
 /// Transmit powers [dBm], ascending in steps of 0.25 dB; entry i has index i + 1 in LLRP.
-std::vector<double> power_table(double most_dbm);
+std::vector<double> power_table(double max_dbm);
 /// The index of the power nearest to `dbm`.
 std::uint16_t power_index_of(const std::vector<double>& table, double dbm);
 

@@ -12,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::uint8_t kGen2 = 1;  ///< ProtocolID.
-constexpr std::size_t kMostSpecs = 64;
+constexpr std::size_t kMaxSpecs = 64;
 
 void require_field(bool holds, const std::string& what) {
   if (!holds) throw Fault(Status::kFieldError, what);
@@ -289,8 +289,8 @@ RoSpec ro_spec_of(const Parameter& parameter) {
     if (each.type == 183) spec.specs.push_back(ai_spec_of(each.content));
   }
   if (spec.specs.empty()) throw Fault(Status::kMissingParameter, "parameter 183 is missing");
-  if (spec.specs.size() > kMostSpecs) {
-    throw Fault(Status::kOverflowParameter, fmt::format("at most {} AISpecs", kMostSpecs));
+  if (spec.specs.size() > kMaxSpecs) {
+    throw Fault(Status::kOverflowParameter, fmt::format("at most {} AISpecs", kMaxSpecs));
   }
   if (const auto report = find(inner, kRoReportSpec)) spec.report = report_spec_of(report->content);
   return spec;

@@ -191,7 +191,7 @@ Bytes to_bytes(const Message& message) {
 std::size_t length_in(const std::uint8_t* header) {
   const unsigned version = header[0] >> 2U & 0x07U;
   const std::size_t length = number_at(header + 2, 4);
-  if (length < kHeaderSize || length > kMostMessage) {
+  if (length < kHeaderSize || length > kMaxMessage) {
     throw Fault(Status::kInvalid, fmt::format("a message can't be {} bytes long", length));
   }
   if (version != kVersion) {

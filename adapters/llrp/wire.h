@@ -124,7 +124,7 @@ struct Message {
 
 inline constexpr std::size_t kHeaderSize = 10;
 /// Far longer than any message from a client.
-inline constexpr std::size_t kMostMessage = std::size_t{1} << 20U;
+inline constexpr std::size_t kMaxMessage = std::size_t{1} << 20U;
 
 /// Encodes the message, with its header.
 Bytes to_bytes(const Message& message);

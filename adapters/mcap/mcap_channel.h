@@ -40,10 +40,10 @@ struct McapMessage {
 
 /// A chunk is held in memory as a whole. Real files have chunks of 1 to 16 MB; this limit is far
 /// above those, yet a small machine can still allocate it if a broken or hostile file claims it.
-constexpr std::size_t kMostMcapChunkBytes = std::size_t{256} << 20U;
+constexpr std::size_t kMaxMcapChunkBytes = std::size_t{256} << 20U;
 /// All schemas and channels of a file are kept until it is closed.
-constexpr std::size_t kMostMcapDefinitionBytes = std::size_t{64} << 20U;
+constexpr std::size_t kMaxMcapDefinitionBytes = std::size_t{64} << 20U;
 /// Limit of one written message, such that it still fits in a chunk with definitions before it.
-constexpr std::size_t kMostMcapMessageBytes = std::size_t{128} << 20U;
+constexpr std::size_t kMaxMcapMessageBytes = std::size_t{128} << 20U;
 
 }  // namespace tagfield

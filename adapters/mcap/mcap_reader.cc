@@ -22,7 +22,7 @@ using mcap_internal::Op;
 using mcap_internal::Piece;
 using mcap_internal::take_record;
 
-constexpr std::uint64_t kMostHeldBytes = std::uint64_t{512} << 20U;
+constexpr std::uint64_t kMaxHeldBytes = std::uint64_t{512} << 20U;
 
 /// Log time and position of a message, in an order in which equal times keep their file order.
 using Entry = std::pair<std::uint64_t, std::size_t>;
@@ -99,7 +99,7 @@ class Merge {
       if (!heads_.empty() && piece.first_ns > heads_.top().first) return;
       Held& held = held_[by_time_[next_]] = hold(file_, wanted_, piece);
       held_bytes_ += held.size();
-      if (held_bytes_ > kMostHeldBytes) {
+      if (held_bytes_ > kMaxHeldBytes) {
         fail({file_.path(), 0}, "has chunks of more than 512 MB that overlap in time");
       }
       go_on(by_time_[next_], held);

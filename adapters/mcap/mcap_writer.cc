@@ -33,7 +33,7 @@ using mcap_internal::put_record;
 using mcap_internal::put_text;
 using mcap_internal::TimeRange;
 
-constexpr std::size_t kMostIds = 65535;
+constexpr std::size_t kMaxIds = 65535;
 
 /// The target of a symbolic link. Throws Error if the path exists but is not a file.
 fs::path target_of(const fs::path& path) {
@@ -145,7 +145,7 @@ std::uint16_t McapWriter::State::schema_id(const std::shared_ptr<const McapSchem
 }
 
 void McapWriter::State::make_room(std::size_t size) {
-  if (chunk.records.size() + definitions.size() + size > kMostMcapChunkBytes) close();
+  if (chunk.records.size() + definitions.size() + size > kMaxMcapChunkBytes) close();
 }
 
 /// A chunk is written only when it is full, so the program may be killed between any two writes.
@@ -227,7 +227,7 @@ McapWriter::~McapWriter() = default;
 
 McapChannelId McapWriter::add_channel(const McapChannel& channel) {
   State& state = *state_;
-  if (state.channels.size() == kMostIds || state.schemas.size() == kMostIds) {
+  if (state.channels.size() == kMaxIds || state.schemas.size() == kMaxIds) {
     throw Error("an MCAP file can have 65535 channels and as many schemas at most");
   }
   const std::uint16_t schema = state.schema_id(channel.schema);
@@ -237,9 +237,9 @@ McapChannelId McapWriter::add_channel(const McapChannel& channel) {
   const std::string of_channel = mcap_internal::channel_record(id, channel, schema);
   if (state.schema_records.size() + state.channel_records.size() + of_schema.size() +
           of_channel.size() >
-      kMostMcapDefinitionBytes) {
+      kMaxMcapDefinitionBytes) {
     throw Error(fmt::format("the schemas and channels of an MCAP file can take {} bytes at most",
-                            kMostMcapDefinitionBytes));
+                            kMaxMcapDefinitionBytes));
   }
   if (is_new) state.schemas[channel.schema->name] = {schema, channel.schema};
   state.channels.emplace_back();
@@ -255,9 +255,9 @@ void McapWriter::write(McapChannelId channel, std::uint64_t log_time_ns,
   if (channel == 0 || channel > state.channels.size()) {
     throw Error(fmt::format("the MCAP file has no channel {}", channel));
   }
-  if (bytes.size() > kMostMcapMessageBytes) {
+  if (bytes.size() > kMaxMcapMessageBytes) {
     throw Error(fmt::format("a message of an MCAP file has {} bytes, {} at most", bytes.size(),
-                            kMostMcapMessageBytes));
+                            kMaxMcapMessageBytes));
   }
   state.guarded([&] {
     const bool is_large = bytes.size() >= state.options.chunk_bytes / kLargeShare;

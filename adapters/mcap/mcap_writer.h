@@ -36,11 +36,11 @@ class McapWriter {
   McapWriter& operator=(const McapWriter&) = delete;
 
   /// Schemas with the same name are shared. Throws Error if they differ, for more than 65,535
-  /// schemas or channels, and for more than kMostMcapDefinitionBytes.
+  /// schemas or channels, and for more than kMaxMcapDefinitionBytes.
   McapChannelId add_channel(const McapChannel& channel);
 
   /// Times can be in any order. Throws Error for a channel that was not added, and for more than
-  /// kMostMcapMessageBytes.
+  /// kMaxMcapMessageBytes.
   void write(McapChannelId channel, std::uint64_t log_time_ns, std::uint64_t publish_time_ns,
              std::string_view bytes);
 

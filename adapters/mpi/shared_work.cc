@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kRequest = 1;
 constexpr int kAnswer = 2;
-constexpr std::uint64_t kMostAtOnce = 64;
+constexpr std::uint64_t kMaxAtOnce = 64;
 constexpr std::chrono::microseconds kNap{500};
 
 }  // namespace
@@ -79,7 +79,7 @@ struct SharedWork::Parts {
     const std::lock_guard lock(mutex);
     const std::uint64_t share = left / (4 * static_cast<std::uint64_t>(session.ranks()));
     std::vector<std::uint64_t> numbers;
-    for (std::uint64_t i = std::clamp<std::uint64_t>(share, 1, kMostAtOnce); i > 0; --i) {
+    for (std::uint64_t i = std::clamp<std::uint64_t>(share, 1, kMaxAtOnce); i > 0; --i) {
       const std::optional<Piece> piece = deal();
       if (!piece) break;
       numbers.insert(numbers.end(), {piece->first, piece->second});
@@ -114,7 +114,7 @@ struct SharedWork::Parts {
   void ask() {
     MPI_Send(nullptr, 0, MPI_UINT64_T, 0, kRequest, MPI_COMM_WORLD);
     MPI_Status status{};
-    std::array<std::uint64_t, 2 * kMostAtOnce> numbers{};
+    std::array<std::uint64_t, 2 * kMaxAtOnce> numbers{};
     MPI_Recv(numbers.data(), static_cast<int>(numbers.size()), MPI_UINT64_T, 0, kAnswer,
              MPI_COMM_WORLD, &status);
     int count = 0;

@@ -18,13 +18,13 @@ namespace {
 
 constexpr int kQos = 1;
 constexpr int kKeepalive_s = 20;
-constexpr std::chrono::seconds kLeastDelay(1);
-constexpr std::chrono::seconds kMostDelay(30);
+constexpr std::chrono::seconds kMinDelay(1);
+constexpr std::chrono::seconds kMaxDelay(30);
 constexpr int kLoop_ms = 100;
 /// Time limit for disconnecting.
 constexpr std::chrono::milliseconds kGoodbye(300);
 /// Messages held by libmosquitto until the broker has acknowledged them; all others wait here.
-constexpr std::size_t kMostHanded = 200;
+constexpr std::size_t kMaxHanded = 200;
 
 void init_library() {
   static const int once = libmosquitto().lib_init();
@@ -70,7 +70,7 @@ class MqttClient::Impl {
       return;
     }
     waiting_.push_back(std::move(message));
-    if (waiting_.size() + handed_ > options_.most_messages) {
+    if (waiting_.size() + handed_ > options_.max_messages) {
       waiting_.pop_front();
       lose(1);
     }
@@ -113,7 +113,7 @@ class MqttClient::Impl {
           client_, url.user.c_str(), url.password.empty() ? nullptr : url.password.c_str()));
     }
     if (url.has_tls) require(libmosquitto().int_option(client_, MOSQ_OPT_TLS_USE_OS_CERTS, 1));
-    require(libmosquitto().max_inflight_messages_set(client_, static_cast<unsigned>(kMostHanded)));
+    require(libmosquitto().max_inflight_messages_set(client_, static_cast<unsigned>(kMaxHanded)));
     require(libmosquitto().threaded_set(client_, true));
     libmosquitto().connect_callback_set(client_, [](mosquitto*, void* self, int code) {
       static_cast<Impl*>(self)->on_connect(code);
@@ -153,7 +153,7 @@ class MqttClient::Impl {
     std::unique_lock lock(mutex_);
     if (!std::exchange(was_away_, true)) warn("the broker can't be reached; trying again");
     const bool ends = changed_.wait_for(lock, delay_, [this] { return is_ending_; });
-    delay_ = std::min(2 * delay_, kMostDelay);
+    delay_ = std::min(2 * delay_, kMaxDelay);
     lock.unlock();
     if (!ends) libmosquitto().reconnect_async(client_);
     return !ends;
@@ -174,7 +174,7 @@ class MqttClient::Impl {
       return;
     }
     if (std::exchange(was_away_, false)) warn("connected");
-    delay_ = kLeastDelay;
+    delay_ = kMinDelay;
     hand_over();
   }
 
@@ -196,7 +196,7 @@ class MqttClient::Impl {
 
   /// Passes messages to libmosquitto up to the limit, which only queues them: its thread sends.
   void hand_over() {
-    while (is_connected_ && handed_ < kMostHanded && !waiting_.empty()) {
+    while (is_connected_ && handed_ < kMaxHanded && !waiting_.empty()) {
       const Message message = std::move(waiting_.front());
       waiting_.pop_front();
       const int code = libmosquitto().publish(client_, nullptr, message.topic.c_str(),
@@ -215,7 +215,7 @@ class MqttClient::Impl {
   void lose(std::size_t count) {
     if (counts_.lost == 0) {
       warn(fmt::format("the queue of {} messages is full: the oldest are lost from now on",
-                       options_.most_messages));
+                       options_.max_messages));
     }
     counts_.lost += count;
   }
@@ -236,7 +236,7 @@ class MqttClient::Impl {
   bool was_away_ = false;
   bool is_finished_ = false;
   bool is_ending_ = false;
-  std::chrono::seconds delay_ = kLeastDelay;
+  std::chrono::seconds delay_ = kMinDelay;
   std::thread thread_;
 };
 

@@ -16,7 +16,7 @@ namespace tagfield {
 struct MqttOptions {
   /// Messages that are buffered while the broker is unreachable or slow. When the buffer is full,
   /// the oldest are dropped.
-  std::size_t most_messages = 100'000;
+  std::size_t max_messages = 100'000;
   /// How long the destructor waits without any message being delivered.
   std::chrono::milliseconds patience{5000};
   /// Receives one line when the broker becomes unreachable, comes back or refuses messages, and

@@ -19,9 +19,9 @@
 namespace tagfield {
 namespace {
 
-constexpr double kGreatestFrequency = 1e12;  ///< [Hz]
-constexpr double kGreatestLevel = 1e6;       ///< [dBm]
-constexpr std::size_t kLongestName = 1000;   ///< Bytes.
+constexpr double kMaxFrequency = 1e12;      ///< [Hz]
+constexpr double kMaxLevel = 1e6;           ///< [dBm]
+constexpr std::size_t kLongestName = 1000;  ///< Bytes.
 constexpr std::uint32_t kLastSecond = 4'000'000'000;
 constexpr Duration kReset = std::chrono::seconds(1);
 
@@ -82,9 +82,9 @@ std::string frame_of(const std::string& frame) {
 
 template <typename Point>  // geometry_msgs' Point or Vector3
 Eigen::Vector3d place_of(const Point& p, const std::string& what, const MessageLocation& place) {
-  return {checked(p.x, kMostCoordinate_m, what + ".x", place),
-          checked(p.y, kMostCoordinate_m, what + ".y", place),
-          checked(p.z, kMostCoordinate_m, what + ".z", place)};
+  return {checked(p.x, kMaxCoordinate_m, what + ".x", place),
+          checked(p.y, kMaxCoordinate_m, what + ".y", place),
+          checked(p.z, kMaxCoordinate_m, what + ".z", place)};
 }
 
 template <typename Quaternion>
@@ -149,15 +149,15 @@ TagRead read_of(const Message& message, std::size_t index, const MessageLocation
   if (!message.reader.empty()) read.reader = checked_name(message.reader, at(".reader"), place);
   read.antenna = checked_name(message.antenna, at(".antenna"), place);
   read.tag = checked_name(message.epc, at(".epc"), place);
-  read.frequency_hz = checked(message.frequency, kGreatestFrequency, at(".frequency"), place);
+  read.frequency_hz = checked(message.frequency, kMaxFrequency, at(".frequency"), place);
   if (!(read.frequency_hz > 0.0)) {
     fail_at(place, fmt::format("{} is {}, expected more than 0", to_text(at(".frequency")),
                                read.frequency_hz));
   }
-  read.phase_rad = checked(message.phase, kGreatestLevel, at(".phase"), place);
-  read.rssi_dbm = checked(message.rssi, kGreatestLevel, at(".rssi"), place);
+  read.phase_rad = checked(message.phase, kMaxLevel, at(".phase"), place);
+  read.rssi_dbm = checked(message.rssi, kMaxLevel, at(".rssi"), place);
   if (!std::isnan(message.doppler)) {
-    read.doppler_hz = checked(message.doppler, kGreatestLevel, at(".doppler"), place);
+    read.doppler_hz = checked(message.doppler, kMaxLevel, at(".doppler"), place);
   }
   return read;
 }
@@ -219,7 +219,7 @@ void take_antenna_truth(const AntennaTruth& message, const MessageLocation& plac
   for (std::size_t i = 0; i < message.epcs.size(); ++i) {
     content.sink->on_distance(
         {stamp, antenna, checked_name(message.epcs[i], FieldName{"epcs", i}, place),
-         checked(message.distances[i], kMostCoordinate_m, FieldName{"distances", i}, place)});
+         checked(message.distances[i], kMaxCoordinate_m, FieldName{"distances", i}, place)});
   }
 }
 
@@ -290,10 +290,10 @@ void take_array(const rfid_sensor::TagArray& message, const MessageLocation& pla
                     antenna,
                     checked_name(tag.name, at + "name", place),
                     frequency_hz,
-                    checked(tag.phi, kGreatestLevel, at + "phi", place),
-                    checked(tag.rssi, kGreatestLevel, at + "rssi", place)};
+                    checked(tag.phi, kMaxLevel, at + "phi", place),
+                    checked(tag.rssi, kMaxLevel, at + "rssi", place)};
     content.sink->on_distance(
-        {stamp, antenna, read.tag, checked(tag.dist, kMostCoordinate_m, at + "dist", place)});
+        {stamp, antenna, read.tag, checked(tag.dist, kMaxCoordinate_m, at + "dist", place)});
     content.sink->on_read(std::move(read), "");
   }
 }

@@ -150,7 +150,7 @@ void add_fixed_antennas(const BagRecording& recording, std::vector<AntennaPose>&
 }
 
 bool is_truth_enough(const BagOptions& options, const BagRecording& recording) {
-  return recording.untold && recording.untold->overview.count > options.most_reads_believed &&
+  return recording.untold && recording.untold->overview.count > options.max_reads_believed &&
          !recording.truth.antenna_poses.empty();
 }
 
@@ -192,7 +192,7 @@ GoThrough going_through(const std::string& path, std::optional<double> frequency
 BagRecording read_bag(const std::string& path, const BagOptions& options,
                       Diagnostics& diagnostics) {
   const Silence silence;
-  HeldReads held(options.most_reads);
+  HeldReads held(options.max_reads);
   const BagReadSink sink = held.sink();
   const GoThrough go_through = going_through(path, options.frequency_hz, diagnostics);
   BagContent content = go_through(sink, options.on_progress, diagnostics);

@@ -28,10 +28,10 @@ struct BagOptions {
   std::function<void(double share)> on_progress;  ///< Called with 0 … 1, or empty.
   /// If there are more reads or true distances than this, they are not held: see
   /// BagRecording::untold.
-  std::size_t most_reads = std::numeric_limits<std::size_t>::max();
+  std::size_t max_reads = std::numeric_limits<std::size_t>::max();
   /// If there are more reads than this, they are not held, and the bag has a truth, then `believed`
   /// stays empty, which saves the memory of a pose per update.
-  std::size_t most_reads_believed = std::numeric_limits<std::size_t>::max();
+  std::size_t max_reads_believed = std::numeric_limits<std::size_t>::max();
 };
 
 /// Reads of a bag that has too many to hold in memory.
@@ -57,7 +57,7 @@ struct PoseSet {
 
 struct BagRecording {
   std::vector<TagRead> reads;  ///< By stamp, without duplicates.
-  /// Set if there are more reads or distances than `most_reads`: then `reads` and the truth's
+  /// Set if there are more reads or distances than `max_reads`: then `reads` and the truth's
   /// distances are empty.
   std::optional<UnreportedReads> untold;
   /// At the stamps of all updates of antennas for which a pose is known, and, if they are held, of

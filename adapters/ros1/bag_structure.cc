@@ -32,7 +32,7 @@ enum Operation : std::uint8_t {
 constexpr std::size_t kIndexEntry = 12;  ///< A time and an offset.
 constexpr std::size_t kInfoEntry = 8;    ///< A connection and a count.
 /// Limit of an uncompressed chunk. rosbag's have 768 KiB, or one message.
-constexpr std::uint32_t kMostChunk = 1U << 28U;
+constexpr std::uint32_t kMaxChunk = 1U << 28U;
 
 /// A description of damage, without the file name.
 struct Damage {
@@ -95,7 +95,7 @@ class Header {
 std::string_view records_of(const Header& header, std::string_view data, std::string& unpacked) {
   const auto size = header.number<std::uint32_t>("size");
   const std::string_view compression = header.text("compression");
-  if (size > kMostChunk) throw Damage{"a chunk has over 256 MiB"};
+  if (size > kMaxChunk) throw Damage{"a chunk has over 256 MiB"};
   if (compression == "none") {
     if (data.size() != size) throw Damage{"a chunk has a wrong size"};
     return data;

@@ -18,12 +18,12 @@ namespace {
 using ros::serialization::IStream;
 
 /// Reads a list in ROS' encoding. ROS' own reader allocates as many elements as the count states,
-/// even 4 GB, before it checks that they exist. Each element takes at least `least_bytes`.
+/// even 4 GB, before it checks that they exist. Each element takes at least `min_bytes`.
 template <typename Element>
-void read_list(IStream& stream, std::vector<Element>& list, std::uint32_t least_bytes) {
+void read_list(IStream& stream, std::vector<Element>& list, std::uint32_t min_bytes) {
   std::uint32_t count = 0;
   stream.next(count);
-  if (count > stream.getLength() / least_bytes) {
+  if (count > stream.getLength() / min_bytes) {
     throw Error(fmt::format("has a list of {} elements, but only {} bytes are left", count,
                             stream.getLength()));
   }

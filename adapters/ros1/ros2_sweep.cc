@@ -16,7 +16,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostOpen = 16;
+constexpr std::size_t kMaxOpen = 16;
 
 /// Processes the bytes of a topic's message.
 using Take = std::function<void(std::string_view bytes, const MessageLocation& place,
@@ -105,7 +105,7 @@ Ros2Files::Ros2Files(const std::string& path, Diagnostics& diagnostics)
 std::shared_ptr<RecordedFile> Ros2Files::open(std::size_t index, Diagnostics& diagnostics) {
   if (open_[index] != nullptr) return open_[index];
   std::shared_ptr<RecordedFile> file = open_recorded_file(files_[index], diagnostics);
-  if (files_.size() <= kMostOpen) open_[index] = file;
+  if (files_.size() <= kMaxOpen) open_[index] = file;
   return file;
 }
 

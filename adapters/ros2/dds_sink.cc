@@ -22,8 +22,8 @@
 namespace tagfield::ros2 {
 namespace {
 
-constexpr dds_duration_t kMostBlocking = DDS_SECS(1);
-constexpr dds_duration_t kMostWaitAtEnd = DDS_SECS(3);
+constexpr dds_duration_t kMaxBlocking = DDS_SECS(1);
+constexpr dds_duration_t kMaxWaitAtEnd = DDS_SECS(3);
 constexpr std::uint32_t kLastDomain = 232;  // Domains above have no ports.
 constexpr std::int32_t kDepth = 1000;       // Messages kept for slow readers of a reliable topic.
 
@@ -65,7 +65,7 @@ Qos writer_qos(Delivery delivery, const std::string& type_hash) {
   libdds().qset_reliability(
       qos.get(),
       delivery == Delivery::kBestEffort ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
-      kMostBlocking);
+      kMaxBlocking);
   libdds().qset_durability(qos.get(), delivery == Delivery::kLatched
                                           ? DDS_DURABILITY_TRANSIENT_LOCAL
                                           : DDS_DURABILITY_VOLATILE);
@@ -303,7 +303,7 @@ void DdsSink::publish(std::size_t topic, Time /*stamp*/, const void* message) {
 }
 
 void DdsSink::finish() {
-  const dds_time_t until = libdds().time() + kMostWaitAtEnd;
+  const dds_time_t until = libdds().time() + kMaxWaitAtEnd;
   for (const Writer& writer : impl_->writers) {
     libdds().wait_for_acks(writer.writer.get(),
                            std::max<dds_duration_t>(until - libdds().time(), 0));

@@ -155,7 +155,7 @@ Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
 
 /// Prints the contents of a file, one fact per line.
 void print_facts(const Json& json) {
-  constexpr std::size_t kMostNames = 12;
+  constexpr std::size_t kMaxNames = 12;
   for (const auto& [key, value] : json.items()) {
     std::string words = key;
     std::replace(words.begin(), words.end(), '_', ' ');
@@ -164,12 +164,12 @@ void print_facts(const Json& json) {
       continue;
     }
     std::string names;
-    for (std::size_t i = 0; i < value.size() && i < kMostNames; ++i) {
+    for (std::size_t i = 0; i < value.size() && i < kMaxNames; ++i) {
       const Json& name = value[i];
       names += (i == 0 ? "" : ", ") + (name.is_string() ? name.get<std::string>() : name.dump());
     }
     fmt::print("{}: {}{}{}\n", words, value.size(), value.empty() ? "" : ": " + names,
-               value.size() > kMostNames ? ", …" : "");
+               value.size() > kMaxNames ? ", …" : "");
   }
 }
 

@@ -218,7 +218,7 @@ Json describe_calibration(const std::string& path) {
 
 Json describe_recording(const std::string& path, Diagnostics& diagnostics) {
   BagOptions options;
-  options.most_reads = kReadsToReadAnew;
+  options.max_reads = kReadsToReadAnew;
   const BagRecording bag = read_bag(path, options, diagnostics);
   Json json = {{"kind", "recording of ROS"}};
   add_reads(bag.untold ? bag.untold->overview : overview_of(bag.reads), json);

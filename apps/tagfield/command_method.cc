@@ -128,8 +128,8 @@ int run_program(const std::string& command, const std::string& folder, const std
 
 /// ": " and the last non-empty line of the log, or nothing.
 std::string last_line(const fs::path& log) {
-  constexpr std::size_t kMostLog = 1U << 26U;
-  std::string text = is_there(log) ? read_text_file(log.string(), kMostLog) : "";
+  constexpr std::size_t kMaxLog = 1U << 26U;
+  std::string text = is_there(log) ? read_text_file(log.string(), kMaxLog) : "";
   text.erase(text.find_last_not_of(" \t\r\n") + 1);
   const std::size_t begin = text.rfind('\n');
   if (begin != std::string::npos) text.erase(0, begin + 1);

@@ -19,7 +19,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostTagsListed = 12;
+constexpr std::size_t kMaxTagsListed = 12;
 
 std::vector<DriveSample> drive_of(const CoverageArguments& arguments, const Scenario& scenario) {
   std::optional<Time> time;
@@ -76,14 +76,14 @@ void print_tags(const Coverage& coverage, TagVerdict verdict, const char* title)
   std::size_t count = 0;
   for (const TagCoverage& tag : coverage.tags) {
     if (tag.verdict != verdict) continue;
-    if (++count > kMostTagsListed) continue;
+    if (++count > kMaxTagsListed) continue;
     const bool has_readers = verdict != TagVerdict::kNever;
     names += fmt::format("  {}{}\n", tag.id, has_readers ? ": " + spoken(coverage, tag) : "");
   }
   if (count == 0) return;
   fmt::print("{}: {} of {} tags\n{}", title, count, coverage.tags.size(), names);
-  if (count > kMostTagsListed)
-    fmt::print("  … and {} more (coverage_tags.csv)\n", count - kMostTagsListed);
+  if (count > kMaxTagsListed)
+    fmt::print("  … and {} more (coverage_tags.csv)\n", count - kMaxTagsListed);
 }
 
 void print(const Coverage& coverage, const std::string& out) {

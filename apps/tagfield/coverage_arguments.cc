@@ -24,9 +24,9 @@ namespace {
 constexpr double kMirroredLinks = 800e3;
 constexpr double kDirectLinks = 1.5e6;
 constexpr double kPaperLinks = 20e6;
-constexpr double kLeastStep = 0.1;
-constexpr double kMostStep = 1.0;
-constexpr std::size_t kMostHeights = 3;  ///< Chosen by default.
+constexpr double kMinStep = 0.1;
+constexpr double kMaxStep = 1.0;
+constexpr std::size_t kMaxHeights = 3;  ///< Chosen by default.
 
 std::vector<double> numbers_in(const std::string& option, const std::string& text,
                                std::size_t count, const char* expected) {
@@ -170,7 +170,7 @@ std::vector<double> usual_heights(const std::vector<DriveSample>& samples) {
   heights.erase(
       std::unique(heights.begin(), heights.end(), [](double a, double b) { return b - a < 1e-6; }),
       heights.end());
-  if (heights.size() <= kMostHeights) return heights;
+  if (heights.size() <= kMaxHeights) return heights;
   return {all[all.size() / 2]};
 }
 
@@ -236,7 +236,7 @@ double usual_step(const Eigen::AlignedBox2d& region, const Scenario& scenario,
   const double links =
       links_of(samples, one) * region.volume() / affordable_links(scenario, request.antennas);
   const double step = std::ceil(std::sqrt(links) / 0.05 - 1e-9) * 0.05;
-  return std::clamp(step, kLeastStep, kMostStep);
+  return std::clamp(step, kMinStep, kMaxStep);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ class EventTable final : public EventListener {
   void add(const PresenceEvent& event, const std::string& how) {
     visits_ += fmt::format("{:<16} {:<28} {:>10.3f} s {:>10.3f} s {:>7} {:>5.1f} dBm  {}\n",
                            event.logical_reader, event.tag, to_seconds(event.first_read),
-                           to_seconds(event.last_read), event.reads, event.most_rssi_dbm, how);
+                           to_seconds(event.last_read), event.reads, event.max_rssi_dbm, how);
   }
   void add(const CycleReport& report) {
     for (const ReportGroup& group : report.groups) {

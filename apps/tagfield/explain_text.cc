@@ -11,7 +11,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostPaths = 12;
+constexpr std::size_t kMaxPaths = 12;
 
 std::string place(const Eigen::Vector3d& p) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f}) m", p.x(), p.y(), p.z());
@@ -137,7 +137,7 @@ std::string paths_text(const std::vector<PathExplanation>& paths) {
   std::size_t left = 0;
   for (const PathExplanation& path : paths) {
     if (!is_shown(path)) continue;
-    if (shown == kMostPaths) {
+    if (shown == kMaxPaths) {
       ++left;
       continue;
     }
@@ -160,8 +160,8 @@ std::string materials_text(const PhysicalLink& link) {
                         material.permittivity, material.conductivity_s_m);
     text += material.is_measured_here
                 ? "\n"
-                : fmt::format(" (extrapolated: given from {:g} to {:g} GHz)\n", material.least_ghz,
-                              material.most_ghz);
+                : fmt::format(" (extrapolated: given from {:g} to {:g} GHz)\n", material.min_ghz,
+                              material.max_ghz);
   }
   return text;
 }

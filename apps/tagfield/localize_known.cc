@@ -86,7 +86,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
       command
           .add_option("--tag-height", arguments.tag_height_m,
                       "Height of the tags [m, world] (default: the mean height of the antenna)")
-          ->check(CLI::Range(-kMostLength_m, kMostLength_m));
+          ->check(CLI::Range(-kMaxLength_m, kMaxLength_m));
   command.add_option("--tag-heights", arguments.heights_file,
                      "CSV: tag,height_m; takes precedence over --tag-height");
   CLI::Option* vertical =
@@ -118,7 +118,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
                   "Box in which tags are, seen from above: X0 Y0 X1 Y1 [m, world]")
       ->expected(4)
       ->delimiter(',')
-      ->check(CLI::Range(-kMostLength_m, kMostLength_m));
+      ->check(CLI::Range(-kMaxLength_m, kMaxLength_m));
   command.add_option("--reference", arguments.references_file,
                      "Tags at known positions (CSV: tag,x_m,y_m,z_m)");
   command
@@ -132,7 +132,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
           .add_option("--pose-sigma", arguments.pose_sigma_m,
                       "Error of the poses, standard deviation in x and y [m]; 0 for exact "
                       "(default: the covariances in the table of poses, or unknown)")
-          ->check(CLI::Range(0.0, kMostLength_m));
+          ->check(CLI::Range(0.0, kMaxLength_m));
   command.add_option("--pose-yaw-sigma", arguments.pose_yaw_sigma_deg, "Likewise in yaw [deg]")
       ->check(CLI::NonNegativeNumber)
       ->needs(sigma);
@@ -145,7 +145,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
                                .add_option("--map-sigma", arguments.map_sigma_m,
                                            "Error of the map that the poses refer to, as a whole: "
                                            "standard deviation of its shift in x and y [m]")
-                               ->check(CLI::Range(0.0, kMostLength_m));
+                               ->check(CLI::Range(0.0, kMaxLength_m));
   command
       .add_option("--map-yaw-sigma", arguments.map_yaw_sigma_deg,
                   "Likewise of its rotation about the first pose [deg]")
@@ -156,7 +156,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
                   "For 'multipath': how far surfaces of the scenario's world may be from their "
                   "stated positions, standard deviation in x and y [m] (default 0 in the folder of "
                   "a run, else 0.01)")
-      ->check(CLI::Range(0.0, kMostLength_m))
+      ->check(CLI::Range(0.0, kMaxLength_m))
       ->needs("--scenario");
 }
 

@@ -11,8 +11,8 @@ namespace {
 // Assuming some ten thousand steps and half a million links of the paper's model per second.
 constexpr double kLongSteps = 2e9;
 constexpr double kLongLinks = 1e10;
-constexpr double kMostSteps = 1e13;
-constexpr double kMostLinks = 1e14;
+constexpr double kMaxSteps = 1e13;
+constexpr double kMaxLinks = 1e14;
 // Believed and true pose of the antenna and the pose of its robot; reads are not included.
 constexpr double kBytesOfUpdate = 700.0;
 constexpr double kMuchMemory = 4e9;
@@ -33,7 +33,7 @@ void warn_of_long_run(const Scenario& scenario, bool is_kept, Diagnostics& diagn
   const std::string asked = fmt::format(
       "{:g} s simulated are {:.2g} steps of {:g} s and {:.2g} antenna updates with {} tags",
       *scenario.duration_s, steps, scenario.time_step_s, updates, scenario.tags.size());
-  if (steps > kMostSteps || links > kMostLinks) {
+  if (steps > kMaxSteps || links > kMaxLinks) {
     throw Error(asked + ": more than a computer gets done in a year");
   }
   if (steps > kLongSteps || links > kLongLinks) {

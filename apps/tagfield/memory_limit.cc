@@ -17,7 +17,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostSystemBytes = 100'000;  // Of system information files.
+constexpr std::size_t kMaxSystemBytes = 100'000;  // Of system information files.
 
 /// The number at the beginning of a text; none for "max".
 std::optional<std::uint64_t> number_in(std::string_view text) {
@@ -30,7 +30,7 @@ std::optional<std::uint64_t> number_in(std::string_view text) {
 
 std::string text_of(const char* path) {
   try {
-    return read_text_file(path, kMostSystemBytes);
+    return read_text_file(path, kMaxSystemBytes);
   } catch (const Error&) {
     return {};
   }

@@ -23,7 +23,7 @@ void report_warning(const std::string& line) {
 std::shared_ptr<MqttOutlet> broker_of(const MiddlewareArguments& arguments, Time start) {
   if (arguments.broker.empty()) return nullptr;
   MqttOptions options;
-  options.most_messages = arguments.buffer;
+  options.max_messages = arguments.buffer;
   options.warn = report_warning;
   return std::make_shared<MqttOutlet>(arguments.broker, start, options);
 }
@@ -46,7 +46,7 @@ std::shared_ptr<CaptureClient> capture_client(const CaptureArguments& arguments)
   if (arguments.url.empty()) return nullptr;
   CaptureOptions options;
   options.headers = arguments.headers;
-  options.most_events = arguments.buffer;
+  options.max_events = arguments.buffer;
   options.warn = report_warning;
   return std::make_shared<CaptureClient>(arguments.url, options);
 }

@@ -20,7 +20,7 @@ struct CaptureArguments {
   std::string url;  ///< "" for none.
   std::vector<std::string> headers;
   /// Events that are buffered while it is unreachable or slow.
-  std::size_t buffer = CaptureOptions{}.most_events;
+  std::size_t buffer = CaptureOptions{}.max_events;
 };
 
 /// Adds --capture and --capture-header.
@@ -31,7 +31,7 @@ std::shared_ptr<CaptureClient> capture_client(const CaptureArguments& arguments)
 
 struct MiddlewareArguments {
   std::string broker;  ///< URL; "" for none.
-  std::size_t buffer = MqttOptions{}.most_messages;
+  std::size_t buffer = MqttOptions{}.max_messages;
   CaptureArguments capture;
   std::string spec;  ///< File that specifies events; "" for none.
 };

@@ -12,7 +12,7 @@ namespace tagfield {
 namespace {
 
 /// Larger than the ratio between the UHF bands of any two regions.
-constexpr double kMostRatio = 1.2;
+constexpr double kMaxRatio = 1.2;
 
 void warn_of_order(const std::string& file, std::size_t backwards, std::size_t rows,
                    Diagnostics& diagnostics) {
@@ -30,7 +30,7 @@ void warn_of_odd_reads(const std::string& file, const ReadOverview& reads,
                        Diagnostics& diagnostics) {
   warn_of_order(file, reads.backwards, reads.count, diagnostics);
   const std::set<double>& carriers = reads.carriers_hz;
-  if (carriers.empty() || *carriers.rbegin() <= kMostRatio * *carriers.begin()) return;
+  if (carriers.empty() || *carriers.rbegin() <= kMaxRatio * *carriers.begin()) return;
   diagnostics.warn({file, 0},
                    fmt::format("frequency_hz goes from {:g} to {:g}: is all of it in Hz?",
                                *carriers.begin(), *carriers.rbegin()));

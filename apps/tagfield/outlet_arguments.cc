@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kNodeName = "tagfield";
 // Usually enough for running nodes to discover us.
-constexpr Duration kMostWait = std::chrono::seconds(2);
+constexpr Duration kMaxWait = std::chrono::seconds(2);
 constexpr std::chrono::milliseconds kSettling(300);
 
 /// One sink that forwards to all of `sinks`.
@@ -109,7 +109,7 @@ RunOutlets attach_outlets(const OutletArguments& arguments, const ScenarioWithWo
   const std::shared_ptr<ros2::MessageSink> sink = joined(run.sinks);
   const auto outlet = attach_sink(sink, loaded, control);
   if (!arguments.drive.empty()) run.driving = driving_of(arguments, loaded, dds, sink, outlet);
-  if (dds && dds->wait_for_reader(kMostWait)) std::this_thread::sleep_for(kSettling);
+  if (dds && dds->wait_for_reader(kMaxWait)) std::this_thread::sleep_for(kSettling);
   return run;
 }
 

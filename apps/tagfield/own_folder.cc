@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Larger files were not written by a run.
-constexpr std::size_t kMostBytes = 200'000'000;
+constexpr std::size_t kMaxBytes = 200'000'000;
 
 /// Name of the scenario in a results file; "" if the file does not exist or states none.
 std::string scenario_in(const fs::path& file) {
@@ -23,7 +23,7 @@ std::string scenario_in(const fs::path& file) {
   if (!fs::is_regular_file(file, error)) return "";
   try {
     const auto json =
-        nlohmann::json::parse(read_text_file(file.string(), kMostBytes), nullptr, false);
+        nlohmann::json::parse(read_text_file(file.string(), kMaxBytes), nullptr, false);
     if (!json.is_object() || !json.contains("scenario") || !json["scenario"].is_string()) return "";
     return json["scenario"].get<std::string>();
   } catch (const Error&) {

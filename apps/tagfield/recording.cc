@@ -121,7 +121,7 @@ void keep_elsewhere(ReadSource source, std::optional<std::size_t> part, const st
 }
 
 /// Maximum number of a bag's reads to keep in memory.
-std::size_t most_reads(const BagArguments& arguments, bool keep) {
+std::size_t max_reads(const BagArguments& arguments, bool keep) {
   if (arguments.part_reads) {
     return *arguments.part_reads == 0 ? std::numeric_limits<std::size_t>::max() : 0;
   }
@@ -201,9 +201,9 @@ LoadedRecording bag_recording(const BagArguments& arguments, const std::string& 
                             arguments.poses, kPoseWords));
   }
   BagOptions options = options_of(arguments);
-  options.most_reads = most_reads(arguments, keep);
+  options.max_reads = max_reads(arguments, keep);
   if (arguments.poses != "tf" && arguments.poses != "odometry") {
-    options.most_reads_believed = arguments.part_reads ? 0 : kManyReads;
+    options.max_reads_believed = arguments.part_reads ? 0 : kManyReads;
   }
   BagRecording bag = bag_with_progress(arguments.bag, options, diagnostics);
   LoadedRecording recording;

@@ -14,7 +14,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostNames = 20;
+constexpr std::size_t kMaxNames = 20;
 
 /// Index of this name in `names`; without a name, of the only one.
 std::size_t find_name(const std::string& command, const std::string& kind, const std::string& name,
@@ -25,7 +25,7 @@ std::size_t find_name(const std::string& command, const std::string& kind, const
   }
   const std::vector<std::string> some(
       names.begin(),
-      names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMostNames)));
+      names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMaxNames)));
   const std::string known = suggestion(name, some);
   if (name.empty()) {
     throw Error(fmt::format("{}: the scenario has {} {}s; say which with --{} NAME{}", command,

@@ -41,7 +41,7 @@ class LinePrinter final : public ReadListener {
   void on_read(const TagRead& read) override {
     append_json(read, start_, ports_, lines_);
     lines_ += '\n';
-    if (lines_.size() > kMostBytes) flush();
+    if (lines_.size() > kMaxBytes) flush();
   }
   void on_update(const AntennaInfo& /*antenna*/, Time /*stamp*/) override { flush(); }
 
@@ -61,7 +61,7 @@ class LinePrinter final : public ReadListener {
   }
 
  private:
-  static constexpr std::size_t kMostBytes = 1U << 16U;
+  static constexpr std::size_t kMaxBytes = 1U << 16U;
   Time start_;
   AntennaPorts ports_;
   std::string lines_;

@@ -30,9 +30,9 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostWarnings = 20;  // Printed individually.
-constexpr std::size_t kMostFailures = 20;  // Same.
-constexpr std::size_t kMostSuiteBytes = 16'000'000;
+constexpr std::size_t kMaxWarnings = 20;  // Printed individually.
+constexpr std::size_t kMaxFailures = 20;  // Same.
+constexpr std::size_t kMaxSuiteBytes = 16'000'000;
 constexpr const char* kDatabase = "results.sqlite";
 
 /// A sweep as described by its folder.
@@ -110,9 +110,9 @@ void add_warnings(const SweepPlan& plan, const PointResults& point, Diagnostics&
 
 /// Limits the number of warnings, as many points of a sweep cause similar ones.
 std::vector<std::string> fewer(const std::vector<std::string>& warnings) {
-  if (warnings.size() <= kMostWarnings) return warnings;
-  std::vector<std::string> kept(warnings.begin(), warnings.begin() + kMostWarnings);
-  kept.push_back(fmt::format("… and {} more", warnings.size() - kMostWarnings));
+  if (warnings.size() <= kMaxWarnings) return warnings;
+  std::vector<std::string> kept(warnings.begin(), warnings.begin() + kMaxWarnings);
+  kept.push_back(fmt::format("… and {} more", warnings.size() - kMaxWarnings));
   return kept;
 }
 
@@ -132,15 +132,15 @@ void print_failures(const SweepResults& results, const FoundSweep& found,
   fmt::print("{} failed:\n", results.failed.size() == 1
                                  ? std::string("1 run")
                                  : fmt::format("{} runs", results.failed.size()));
-  for (std::size_t i = 0; i < std::min(results.failed.size(), kMostFailures); ++i) {
+  for (std::size_t i = 0; i < std::min(results.failed.size(), kMaxFailures); ++i) {
     const FailedRun& run = results.failed[i];
     fmt::print("  {} ({}): {}\n    {}\n", to_string(run.key),
                results.plan.points[run.key.point].name, run.reason,
                command_again(found.source.suite, folder, to_string(run.key)));
   }
-  if (results.failed.size() > kMostFailures) {
+  if (results.failed.size() > kMaxFailures) {
     fmt::print("  … and {} more: table 'failures' of {} and results.json have all\n",
-               results.failed.size() - kMostFailures, kDatabase);
+               results.failed.size() - kMaxFailures, kDatabase);
   }
   fmt::print("run all of them again:  {}\n", command_again(found.source.suite, folder, "failed"));
 }
@@ -188,7 +188,7 @@ OpenSweep open_sweep(const std::string& suite, const std::string& out, const Wor
     return read_recording(recording, unheard);
   };
   require_runnable(sweep.plan, sweep.means, sweep.diagnostics);
-  const std::string text = read_text_file(suite, kMostSuiteBytes);
+  const std::string text = read_text_file(suite, kMaxSuiteBytes);
   sweep.head = {program_version(), work_hash(text, loaded, {})};
   const std::string place = std::filesystem::absolute(suite).lexically_normal().string();
   claim_sweep_folder(sweep.folder, {sweep.head, place, text});

@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostRows = 60;
+constexpr std::size_t kMaxRows = 60;
 
 double millimetres(double metres) { return 1e3 * metres; }
 
@@ -63,11 +63,11 @@ std::string rows_of_one_seed(const Summary& summary) {
   std::string text =
       fmt::format("{:<{}}  {:>8} {:>8} {:>7} {:>9} {:>8} {:>11} {:>7}\n", "tag", width, "x [m]",
                   "y [m]", "z [m]", "err [mm]", "E [mm]", "expect [mm]", "reads");
-  for (std::size_t i = 0; i < std::min(summary.tags.size(), kMostRows); ++i) {
+  for (std::size_t i = 0; i < std::min(summary.tags.size(), kMaxRows); ++i) {
     text += row_of(summary.tags[i], width);
   }
-  if (summary.tags.size() > kMostRows) {
-    text += fmt::format("… and {} more (estimates.csv has all)\n", summary.tags.size() - kMostRows);
+  if (summary.tags.size() > kMaxRows) {
+    text += fmt::format("… and {} more (estimates.csv has all)\n", summary.tags.size() - kMaxRows);
   }
   return text;
 }
@@ -118,11 +118,11 @@ std::string rows_of_many_seeds(const Summary& summary) {
   const std::size_t width = name_width(summary);
   std::string text = fmt::format("{:<{}}  {:>7} {:>10} {:>12} {:>9} {:>9}\n", "tag", width, "seeds",
                                  "mean [mm]", "median [mm]", "p95 [mm]", "max [mm]");
-  for (std::size_t i = 0; i < std::min(order.size(), kMostRows); ++i) {
+  for (std::size_t i = 0; i < std::min(order.size(), kMaxRows); ++i) {
     text += row_of(order[i], of_tags[order[i]], width);
   }
-  if (order.size() > kMostRows) {
-    text += fmt::format("… and {} more (summary.json has all)\n", order.size() - kMostRows);
+  if (order.size() > kMaxRows) {
+    text += fmt::format("… and {} more (summary.json has all)\n", order.size() - kMaxRows);
   }
   return text;
 }
@@ -180,12 +180,12 @@ std::string navigation_lines(const Summary& summary) {
       navigation.goals_reached, navigation.goals, navigation.collisions,
       millimetres(navigation.closest_m));
   const auto& unreached = navigation.goals_unreached;
-  for (std::size_t i = 0; i < std::min(unreached.size(), kMostRows); ++i) {
+  for (std::size_t i = 0; i < std::min(unreached.size(), kMaxRows); ++i) {
     text += fmt::format("  seed {}, ({:.2f}, {:.2f}) m: {}\n", unreached[i].seed,
                         unreached[i].goal.x(), unreached[i].goal.y(), unreached[i].reason);
   }
-  if (unreached.size() > kMostRows) {
-    text += fmt::format("  … and {} more (summary.json has all)\n", unreached.size() - kMostRows);
+  if (unreached.size() > kMaxRows) {
+    text += fmt::format("  … and {} more (summary.json has all)\n", unreached.size() - kMaxRows);
   }
   return text + finding_line("unknown starts", navigation.unknown_starts) +
          finding_line("kidnapped", navigation.kidnapped) + finding_line("lost", navigation.lost);
@@ -280,7 +280,7 @@ std::string zone_lines(const InventorySummary& inventory) {
 std::string antenna_lines(const InventorySummary& inventory) {
   std::string text = fmt::format("{:<24} {:<14} {:>8} {:>10} {:>9} {:>9}\n", "antenna", "reader",
                                  "tags", "only by it", "reads", "reads/s");
-  const std::size_t shown = std::min(inventory.antennas.size(), kMostRows);
+  const std::size_t shown = std::min(inventory.antennas.size(), kMaxRows);
   for (std::size_t i = 0; i < shown; ++i) {
     const InventoryShare& antenna = inventory.antennas[i];
     text += fmt::format("  {:<22} {:<14} {:>8.6g} {:>10.6g} {:>9.6g} {:>9.1f}\n", antenna.name,

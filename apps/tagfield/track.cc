@@ -190,7 +190,7 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
   command
       .add_option("--tag-height", arguments.tag_height_m,
                   "Height of the tags [m, world] (default: estimated, near that of the antennas)")
-      ->check(CLI::Range(-kMostLength_m, kMostLength_m));
+      ->check(CLI::Range(-kMaxLength_m, kMaxLength_m));
   command.add_option("--tag-heights", arguments.heights_file,
                      "CSV: tag,height_m; takes precedence over --tag-height");
   command.add_option("--calibration", arguments.calibration,

@@ -9,10 +9,10 @@ namespace tagfield {
 
 /// Upper limit of lengths and coordinates in settings [m]: no hall is longer, but values in wrong
 /// units or entered by mistake mostly are.
-inline constexpr double kMostLength_m = 1e5;
+inline constexpr double kMaxLength_m = 1e5;
 
 /// Same, for positions in tables and bags, which may be sums of several such lengths.
-inline constexpr double kMostCoordinate_m = 1e6;
+inline constexpr double kMaxCoordinate_m = 1e6;
 
 /// Throws Error unless `holds`.
 void require(bool holds, std::string_view name, std::string_view expected, double value);

@@ -63,7 +63,7 @@ std::string one_of(const std::vector<std::string>& choices) {
 }
 
 ValueRange limited(ValueRange range, const std::string& unit) {
-  if (unit == "m") range.most = std::min(range.most, kMostLength_m);
+  if (unit == "m") range.most = std::min(range.most, kMaxLength_m);
   return range;
 }
 

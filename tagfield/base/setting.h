@@ -65,7 +65,7 @@ inline constexpr ValueRange kOverZero{0.0, true};
 inline constexpr ValueRange kAtLeastZero{};
 inline constexpr ValueRange kAtLeastOne{1.0};
 
-/// Same, but lengths are limited to kMostLength_m; help texts don't mention this limit.
+/// Same, but lengths are limited to kMaxLength_m; help texts don't mention this limit.
 ValueRange limited(ValueRange range, const std::string& unit);
 
 /// "over 0 and at most 1".

@@ -13,8 +13,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kMostSeconds = 9.2e9;  // 2^63 ns
-constexpr double kMostStamp = 4.6e9;    // The difference of any two stamps is a Duration.
+constexpr double kMaxSeconds = 9.2e9;  // 2^63 ns
+constexpr double kMaxStamp = 4.6e9;    // The difference of any two stamps is a Duration.
 constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 
 /// Parses "123.25" digit by digit, because a double resolves today's Unix time only to 0.2 µs.
@@ -26,7 +26,7 @@ bool parse_plain_decimal(const std::string& text, std::int64_t& nanos) {
   const char* begin = text.data() + i;
   const char* end = text.data() + text.size();
   const auto [after, error] = std::from_chars(begin, end, whole);
-  if (error != std::errc{} || *begin == '-' || whole >= static_cast<std::int64_t>(kMostStamp)) {
+  if (error != std::errc{} || *begin == '-' || whole >= static_cast<std::int64_t>(kMaxStamp)) {
     return false;
   }
   std::int64_t fraction = 0;
@@ -52,17 +52,17 @@ bool parse_plain_decimal(const std::string& text, std::int64_t& nanos) {
 }  // namespace
 
 Duration duration_from_seconds(double seconds) {
-  if (!(std::abs(seconds) < kMostSeconds)) {
+  if (!(std::abs(seconds) < kMaxSeconds)) {
     throw Error(fmt::format("time {} s is not a number of seconds within 292 years", seconds));
   }
   return Duration(std::llround(seconds * 1e9));
 }
 
 Time time_from_seconds(double seconds) {
-  if (!(std::abs(seconds) < kMostStamp)) {
+  if (!(std::abs(seconds) < kMaxStamp)) {
     throw Error(
         fmt::format("stamp {} s is not a valid time: expected less than {:g} s (146 years) from 0",
-                    seconds, kMostStamp));
+                    seconds, kMaxStamp));
   }
   return Time(duration_from_seconds(seconds));
 }

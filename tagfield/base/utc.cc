@@ -12,7 +12,7 @@ namespace tagfield {
 namespace {
 
 using std::chrono::minutes;
-constexpr minutes kMostZone = std::chrono::hours(14);
+constexpr minutes kMaxZone = std::chrono::hours(14);
 
 /// Takes `digits` digits off the front of `rest`; -1 if there are fewer.
 int take_number(std::string& rest, std::size_t digits) {
@@ -50,7 +50,7 @@ bool take_zone(std::string& rest, minutes& zone) {
   const bool has_colon = take(rest, ':');
   const int past = take_number(rest, 2);
   zone = minutes((is_west ? -1 : 1) * (60 * hours + past));
-  return hours >= 0 && past >= 0 && past < 60 && has_colon && std::chrono::abs(zone) <= kMostZone;
+  return hours >= 0 && past >= 0 && past < 60 && has_colon && std::chrono::abs(zone) <= kMaxZone;
 }
 
 bool take_date(std::string& rest, tm& civil) {

@@ -26,8 +26,8 @@ constexpr std::size_t kFewestReads = 30;
 constexpr double kShortest = 1.0;   ///< Length of the first time intervals [s].
 constexpr double kTimeStep = 0.01;  ///< Grid step of the time offset [s].
 constexpr std::size_t kSearchReads = 3000;
-constexpr double kSlopeTime = 1e-3;   ///< [s]
-constexpr double kLeastNoise = 0.01;  ///< [rad]
+constexpr double kSlopeTime = 1e-3;  ///< [s]
+constexpr double kMinNoise = 0.01;   ///< [rad]
 /// If an antenna moved less, the time offset is not observable [m].
 constexpr double kStraight = 0.02;
 /// Offsets whose rms difference between tags exceeds this, noise deducted, are not shared.
@@ -127,8 +127,7 @@ Fit fitted(Model model, const Fit& start) {
   Fit fit = start;
   model.noise_rad = start.noise_rad;
   model.sign = start.sign;
-  constexpr LevenbergMarquardt kHow{
-      .most_steps = 40, .most_damping = 1e6, .least_relative_gain = 1e-7};
+  constexpr LevenbergMarquardt kHow{.max_steps = 40, .max_damping = 1e6, .min_relative_gain = 1e-7};
   const double max_time_offset_s = 2.0 * model.options.max_time_offset_s;
   const auto normal = [&](const Vector4& theta) { return normal_at(model, theta); };
   const auto allowed = [&](const Vector4& theta) {
@@ -137,7 +136,7 @@ Fit fitted(Model model, const Fit& start) {
   const CircularFit<4> best = fit_angles<4>(start.theta, kHow, normal, allowed);
   fit.theta = best.unknowns;
   fit.cost = best.cost;
-  fit.noise_rad = robust_noise(best.normal.residuals, model.intervals.size() + 4, kLeastNoise);
+  fit.noise_rad = robust_noise(best.normal.residuals, model.intervals.size() + 4, kMinNoise);
   model.noise_rad = fit.noise_rad;
   fit.covariance = invert_symmetric(normal_at(model, fit.theta).matrix);
   return fit;
@@ -217,7 +216,7 @@ Fit fine_fit(const AntennaData& data, const CalibrationOptions& options) {
 double evidence_of(const AntennaData& data, const CalibrationOptions& options,
                    const std::vector<ReadInterval>& intervals, const Fit& fit) {
   const Normal normal = normal_at({data, intervals, options, fit.sign, fit.noise_rad}, fit.theta);
-  double evidence = evidence_of_residuals(normal.residuals, fit.noise_rad, kLeastNoise);
+  double evidence = evidence_of_residuals(normal.residuals, fit.noise_rad, kMinNoise);
   for (const ReadInterval& interval : intervals) {
     evidence += evidence_of_offset(interval.size(), fit.noise_rad);
   }
@@ -279,7 +278,7 @@ std::optional<AntennaCalibration> calibration_of(const AntennaData& data,
                                                  bool pi_ambiguity) {
   const double whole = duration_of(data) + 1.0;
   Fit fit = fine_fit(data, options);
-  if (!(evidence_of(data, options, intervals_of(data, whole, false), fit) >= kLeastEvidence)) {
+  if (!(evidence_of(data, options, intervals_of(data, whole, false), fit) >= kMinEvidence)) {
     return std::nullopt;
   }
   AntennaCalibration result;

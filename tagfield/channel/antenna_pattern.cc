@@ -15,11 +15,11 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeastGain = -60.0;
-constexpr double kMostGain = 40.0;
+constexpr double kMinGain = -60.0;
+constexpr double kMaxGain = 40.0;
 /// A lobe narrower than this, 2°, would have too large an exponent.
-constexpr double kLeastBeam_rad = radians(2.0);
-constexpr double kMostBeam_rad = radians(179.0);
+constexpr double kMinBeam_rad = radians(2.0);
+constexpr double kMaxBeam_rad = radians(179.0);
 /// Number of steps for integrating a table.
 constexpr int kIntegrationSteps = 720;
 
@@ -88,7 +88,7 @@ void check_table(const std::vector<PatternSample>& table) {
     require(sample.angle_rad > before && sample.angle_rad <= kPi + 1e-9, "table's angles",
             "rising, from 0 to 180 degrees", degrees(sample.angle_rad));
     for (const double gain_dbi : {sample.horizontal_dbi, sample.vertical_dbi}) {
-      require_in_range("table's gain", gain_dbi, -200.0, kMostGain, "dBi");
+      require_in_range("table's gain", gain_dbi, -200.0, kMaxGain, "dBi");
     }
     before = sample.angle_rad;
   }
@@ -145,22 +145,22 @@ double directivity_dbi(const AntennaPattern& pattern) {
 }
 
 void check(const AntennaPattern& pattern, Diagnostics& diagnostics) {
-  require_in_range("gain_dbi", pattern.gain_dbi, kLeastGain, kMostGain, "dBi");
+  require_in_range("gain_dbi", pattern.gain_dbi, kMinGain, kMaxGain, "dBi");
   require(std::isfinite(pattern.tilt_rad), "tilt_deg", "finite", pattern.tilt_rad);
   if (pattern.shape == PatternShape::kPatch) {
     for (const double width : {pattern.beam_width_rad, pattern.vertical_beam_width_rad}) {
-      require(width >= kLeastBeam_rad && width <= kMostBeam_rad, "beam_width_deg",
+      require(width >= kMinBeam_rad && width <= kMaxBeam_rad, "beam_width_deg",
               "from 2 to 179 degrees", degrees(width));
     }
     require_in_range("front_to_back_db", pattern.front_to_back_db, 0.0, 100.0, "dB");
   }
   if (pattern.shape == PatternShape::kTable) check_table(pattern.table);
   const double stated_dbi = peak_dbi(pattern);
-  const double most_dbi = directivity_dbi(pattern);
-  if (pattern.shape != PatternShape::kIsotropic && stated_dbi > most_dbi + 0.5) {
+  const double max_dbi = directivity_dbi(pattern);
+  if (pattern.shape != PatternShape::kIsotropic && stated_dbi > max_dbi + 0.5) {
     diagnostics.warn(fmt::format(
         "a gain of {:.1f} dBi is more than the {:.1f} dBi that its pattern's shape allows",
-        stated_dbi, most_dbi));
+        stated_dbi, max_dbi));
   }
 }
 

@@ -34,9 +34,9 @@ Material metal(const char* name, double c) {
   return material;
 }
 
-Material measured(Material material, double least_ghz, double most_ghz) {
-  material.least_ghz = least_ghz;
-  material.most_ghz = most_ghz;
+Material measured(Material material, double min_ghz, double max_ghz) {
+  material.min_ghz = min_ghz;
+  material.max_ghz = max_ghz;
   return material;
 }
 
@@ -114,7 +114,7 @@ double conductivity(const Material& material, double frequency_hz) {
 
 bool is_measured_at(const Material& material, double frequency_hz) {
   const double ghz = frequency_hz * 1e-9;
-  return ghz >= material.least_ghz && ghz <= material.most_ghz;
+  return ghz >= material.min_ghz && ghz <= material.max_ghz;
 }
 
 }  // namespace tagfield

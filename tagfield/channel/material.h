@@ -27,8 +27,8 @@ struct Material {
   std::optional<double> crossing_db;  ///< Loss per object crossed, instead of the slab's.
   bool is_opaque = false;             ///< Nothing passes through, as with metal.
   /// Frequency range in which the coefficients were measured [GHz]; 0 and infinity if unknown.
-  double least_ghz = 0.0;
-  double most_ghz = std::numeric_limits<double>::infinity();
+  double min_ghz = 0.0;
+  double max_ghz = std::numeric_limits<double>::infinity();
 };
 
 /// Table 3 of Recommendation ITU-R P.2040-3: concrete, brick, plasterboard, wood, glass, chipboard,

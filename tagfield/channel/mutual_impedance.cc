@@ -69,7 +69,7 @@ Complex exponential_integral(double x) {
 }
 
 Complex parallel_impedance(double k, double across_m, double along_m) {
-  const double across = std::max(across_m, kLeastAcross_m);
+  const double across = std::max(across_m, kMinAcross_m);
   const double quarter = 0.5 * kPi / k;
   return Complex(0.0, kOhm) *
          (along_wire(k, across, along_m - quarter) + along_wire(k, across, along_m + quarter));

@@ -14,14 +14,14 @@ namespace tagfield {
 inline constexpr std::complex<double> kDipoleImpedance_ohm{73.0790, 42.5151};
 
 /// Minimum separation of two dipoles across their wires, because strips have a width [m].
-inline constexpr double kLeastAcross_m = 1e-3;
+inline constexpr double kMinAcross_m = 1e-3;
 
 /// E₁(jx) = −Ci(x) + j(Si(x) − π/2) for x > 0: the exponential integral of an imaginary argument.
 std::complex<double> exponential_integral(double x);
 
 /// Mutual impedance [Ω] of two parallel thin half-wave dipoles with sinusoidal currents, at wave
 /// number `k` [rad/m]: their centres are `across_m` apart perpendicular to the wires and `along_m`
-/// along them. An `across_m` below kLeastAcross_m is raised to it. P. S. Carter, Circuit relations
+/// along them. An `across_m` below kMinAcross_m is raised to it. P. S. Carter, Circuit relations
 /// in radiating systems, Proc. IRE 20(6), 1932; in closed form as in C. A. Balanis, Antenna Theory,
 /// section 8.6.
 std::complex<double> parallel_impedance(double k, double across_m, double along_m);

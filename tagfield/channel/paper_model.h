@@ -20,8 +20,8 @@ struct LinkGeometry {
 /// The link between an antenna at `p_WA` and a tag at `p_WT` [m]. Coincident ends count as 1 µm
 /// apart, so that no model divides by zero.
 inline LinkGeometry link_between(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT) {
-  constexpr double kLeastDistance = 1e-6;
-  return {std::max((p_WT - p_WA).norm(), kLeastDistance)};
+  constexpr double kMinDistance = 1e-6;
+  return {std::max((p_WT - p_WA).norm(), kMinDistance)};
 }
 
 class RandomStream;

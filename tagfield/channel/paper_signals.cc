@@ -12,8 +12,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeastNormal = std::numeric_limits<double>::min();
-constexpr double kMostDouble = std::numeric_limits<double>::max();
+constexpr double kMinNormal = std::numeric_limits<double>::min();
+constexpr double kMaxDouble = std::numeric_limits<double>::max();
 
 /// Batch size at which all data of a batch stays in the L1 cache.
 constexpr std::size_t kBlock = 256;
@@ -57,16 +57,16 @@ void add_rssis(const PaperModel& model, const PaperLinks& links, const PaperNois
   for (std::size_t i = 0; i < rssi_dbm.size(); ++i) {
     const double amplitude =
         model.communication_gain * (lambda_m / (4.0 * kPi * links.distance_m[i]));
-    const double sum = std::min(amplitude, kMostDouble) +
-                       std::clamp(noise.amplitude[i], -kMostDouble, kMostDouble);
-    const double bounded = std::clamp(std::abs(sum), kLeastNormal, kMostDouble);
+    const double sum =
+        std::min(amplitude, kMaxDouble) + std::clamp(noise.amplitude[i], -kMaxDouble, kMaxDouble);
+    const double bounded = std::clamp(std::abs(sum), kMinNormal, kMaxDouble);
     rssi_dbm[i] = lane_round(40.0 * lane_log10(bounded));
   }
 }
 
 /// Whether a link is in the domain of lane_remainder() and lane_wrap_to_two_pi().
 bool is_usual(double distance_m, double half_wavelength, double noise_rad) {
-  return distance_m >= kLeastNormal && half_wavelength >= 0x1p-900 &&
+  return distance_m >= kMinNormal && half_wavelength >= 0x1p-900 &&
          distance_m < 0x1p20 * half_wavelength && std::abs(noise_rad) < kTwoPi;
 }
 

@@ -14,7 +14,7 @@ namespace tagfield {
 namespace {
 
 /// A tag gives the length of its EPC in 5 bits, in 16-bit words.
-constexpr std::size_t kMostBytes = 62;
+constexpr std::size_t kMaxBytes = 62;
 
 constexpr std::string_view kUrn = "urn:epc:";
 constexpr std::string_view kIdUrn = "urn:epc:id:";
@@ -144,8 +144,8 @@ std::string bits_of_id(const std::string& id) {
 
 std::string sent_bits(const std::string& id) {
   std::string bits = bits_of_id(id);
-  if (!bits.empty() && bits.size() <= 2 * kMostBytes) return bits;
-  if (id.size() > kMostBytes) {
+  if (!bits.empty() && bits.size() <= 2 * kMaxBytes) return bits;
+  if (id.size() > kMaxBytes) {
     return fmt::format("{:016X}{:08X}", stream_key(id), stream_key(id + "#") & 0xffff'ffffU);
   }
   std::string hex;

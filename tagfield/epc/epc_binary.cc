@@ -53,7 +53,7 @@ class BitReader {
 };
 
 DecimalField company_field(int digits) {
-  return {"company prefix", kCompanyBits[static_cast<std::size_t>(kMostCompanyDigits - digits)],
+  return {"company prefix", kCompanyBits[static_cast<std::size_t>(kMaxCompanyDigits - digits)],
           digits, true};
 }
 
@@ -75,14 +75,14 @@ void append_partitioned(const SchemeLayout& layout, const Epc& epc, BitWriter& b
   require_fields(epc, layout.serial.empty() ? 2 : 3);
   const std::string& prefix = epc.fields[0];
   const auto digits = static_cast<int>(prefix.size());
-  if (digits < kLeastCompanyDigits || digits > kMostCompanyDigits) {
+  if (digits < kMinCompanyDigits || digits > kMaxCompanyDigits) {
     throw Error(fmt::format("company prefix '{}' must have {} to {} digits", prefix,
-                            kLeastCompanyDigits, kMostCompanyDigits));
+                            kMinCompanyDigits, kMaxCompanyDigits));
   }
   const DecimalField company = company_field(digits);
   const DecimalField reference = reference_field(layout, company);
   bits.append(static_cast<std::uint64_t>(epc.filter), kFilterBits);
-  bits.append(static_cast<std::uint64_t>(kMostCompanyDigits - digits), kPartitionBits);
+  bits.append(static_cast<std::uint64_t>(kMaxCompanyDigits - digits), kPartitionBits);
   bits.append(number_of(company, prefix), company.bits);
   bits.append(number_of(reference, epc.fields[1]), reference.bits);
   if (layout.serial.empty()) return;
@@ -122,9 +122,9 @@ void append_usdod(const SchemeLayout& layout, const Epc& epc, BitWriter& bits) {
 
 EpcBytes encoded(const Epc& epc) {
   const SchemeLayout& layout = layout_of(epc.scheme);
-  const int most_filter = epc.scheme == EpcScheme::kUsdod ? 15 : 7;
-  if (epc.filter < 0 || epc.filter > most_filter) {
-    throw Error(fmt::format("filter {} must be 0 to {}", epc.filter, most_filter));
+  const int max_filter = epc.scheme == EpcScheme::kUsdod ? 15 : 7;
+  if (epc.filter < 0 || epc.filter > max_filter) {
+    throw Error(fmt::format("filter {} must be 0 to {}", epc.filter, max_filter));
   }
   BitWriter bits;
   bits.append(layout.header, 8);
@@ -144,10 +144,10 @@ std::string take_text(const DecimalField& field, BitReader& bits) {
 void take_partitioned(const SchemeLayout& layout, BitReader& bits, Epc& epc) {
   epc.filter = static_cast<int>(bits.take(kFilterBits));
   const auto partition = static_cast<int>(bits.take(kPartitionBits));
-  if (partition > kMostCompanyDigits - kLeastCompanyDigits) {
+  if (partition > kMaxCompanyDigits - kMinCompanyDigits) {
     throw Error(fmt::format("partition {} must be 0 to 6", partition));
   }
-  const DecimalField company = company_field(kMostCompanyDigits - partition);
+  const DecimalField company = company_field(kMaxCompanyDigits - partition);
   epc.fields.push_back(take_text(company, bits));
   epc.fields.push_back(take_text(reference_field(layout, company), bits));
   if (!layout.serial.empty()) epc.fields.push_back(take_text(serial_field(layout), bits));

@@ -59,7 +59,7 @@ std::string to_json_line(const PresenceEvent& event, Time start) {
   json += fmt::format(
       R"(,"antennaName":{},"firstRead":"{}","lastRead":"{}","reads":{},"peakRssiCdbm":{}}})",
       json_string(event.antenna), time_text(event.first_read, start),
-      time_text(event.last_read, start), event.reads, std::lround(100.0 * event.most_rssi_dbm));
+      time_text(event.last_read, start), event.reads, std::lround(100.0 * event.max_rssi_dbm));
   return json += '\n';
 }
 

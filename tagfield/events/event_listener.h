@@ -29,8 +29,8 @@ struct PresenceEvent {
   std::string antenna;  ///< Of the last read.
   Time first_read;      ///< Since it was glimpsed.
   Time last_read;
-  std::size_t reads = 0;       ///< Since it was glimpsed.
-  double most_rssi_dbm = 0.0;  ///< The maximum of these.
+  std::size_t reads = 0;      ///< Since it was glimpsed.
+  double max_rssi_dbm = 0.0;  ///< The maximum of these.
 };
 
 /// Which tags a report contains.

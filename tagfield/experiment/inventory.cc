@@ -14,8 +14,8 @@ namespace tagfield {
 namespace {
 
 constexpr double kShares[] = {0.5, 0.95, 0.99};
-constexpr std::size_t kMostMoments = 200;
-constexpr std::size_t kMostLevels = 8;
+constexpr std::size_t kMaxMoments = 200;
+constexpr std::size_t kMaxLevels = 8;
 constexpr double kSameLevel_m = 0.05;
 
 /// The zone of a tag and its reads.
@@ -180,7 +180,7 @@ std::vector<ZoneInventory> Tally::by_zone() const {
   return all;
 }
 
-/// Levels of a rack, or kMostLevels equal ranges of height if the tags are on more levels than
+/// Levels of a rack, or kMaxLevels equal ranges of height if the tags are on more levels than
 /// that.
 std::vector<LevelInventory> Tally::by_level() const {
   std::vector<double> heights;
@@ -193,11 +193,11 @@ std::vector<LevelInventory> Tally::by_level() const {
     }
     levels.back().high_m = height;
   }
-  if (levels.size() > kMostLevels) {
+  if (levels.size() > kMaxLevels) {
     const double low = heights.front();
-    const double step = (heights.back() - low) / static_cast<double>(kMostLevels);
+    const double step = (heights.back() - low) / static_cast<double>(kMaxLevels);
     levels.clear();
-    for (std::size_t i = 0; i < kMostLevels; ++i) {
+    for (std::size_t i = 0; i < kMaxLevels; ++i) {
       const auto number = static_cast<double>(i);
       levels.push_back({low + number * step, low + (number + 1.0) * step});
     }
@@ -238,7 +238,7 @@ void Tally::add_times(InventorySummary& summary) const {
     reached.share = share;
     if (needed > 0 && needed <= firsts.size()) reached.time_s = firsts[needed - 1];
   }
-  const std::size_t step = std::max<std::size_t>(1, firsts.size() / kMostMoments);
+  const std::size_t step = std::max<std::size_t>(1, firsts.size() / kMaxMoments);
   for (std::size_t i = 0; i < firsts.size(); i += step) {
     summary.curve.push_back({firsts[i], static_cast<double>(i + 1) / all});
   }

@@ -104,15 +104,15 @@ std::optional<TracingForecast> tracing_forecast(const Scenario& scenario, int or
   Trial trial = try_order(scenario, p_W, 0);
   TracingForecast forecast{0, trial.seconds * updates, true};
   // Each image is mirrored at no more facets than the antenna itself.
-  double most_growth = 1.0;
+  double max_growth = 1.0;
   for (int next = 1; next <= order; ++next) {
-    const double most_seconds = trial.seconds * most_growth;
-    if (forecast.is_measured && most_seconds <= kLongTrial_s) {
+    const double max_seconds = trial.seconds * max_growth;
+    if (forecast.is_measured && max_seconds <= kLongTrial_s) {
       trial = try_order(scenario, p_W, next);
-      if (next == 1) most_growth = std::max(1.0, static_cast<double>(trial.images));
+      if (next == 1) max_growth = std::max(1.0, static_cast<double>(trial.images));
       forecast = {next, trial.seconds * updates, true};
     } else {
-      trial.seconds = most_seconds;
+      trial.seconds = max_seconds;
       forecast = {next, trial.seconds * updates, false};
     }
   }

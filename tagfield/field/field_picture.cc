@@ -7,7 +7,7 @@ namespace tagfield {
 namespace {
 
 constexpr Duration kLately = std::chrono::seconds(1);
-constexpr double kLeastAlpha = 0.25;
+constexpr double kMinAlpha = 0.25;
 
 }  // namespace
 
@@ -16,10 +16,10 @@ ReadColor read_color(double share) {
   const double s = share > 0.0 ? std::min(share, 1.0) : 0.0;
   const double red = std::max(0.0, 2.0 * s - 1.0);
   const double blue = std::max(0.0, 1.0 - 2.0 * s);
-  return {red, 1.0 - red - blue, blue, kLeastAlpha + (1.0 - kLeastAlpha) * s};
+  return {red, 1.0 - red - blue, blue, kMinAlpha + (1.0 - kMinAlpha) * s};
 }
 
-ReadColor silent_color() { return {0.5, 0.5, 0.5, kLeastAlpha}; }
+ReadColor silent_color() { return {0.5, 0.5, 0.5, kMinAlpha}; }
 
 void FieldPicture::on_read(const TagRead& read) {
   SeenTag& tag = tags_[read.tag];

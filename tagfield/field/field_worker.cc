@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostWaiting = 64;
+constexpr std::size_t kMaxWaiting = 64;
 
 /// CPU time of this thread [s]; wall time would include others' work on a busy machine.
 double cpu_time_s() {
@@ -35,7 +35,7 @@ void FieldWorker::finish() {
 
 void FieldWorker::post(FieldStep step) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_.size() < kMostWaiting; });
+  changed_.wait(lock, [this] { return waiting_.size() < kMaxWaiting; });
   waiting_.push_back(std::move(step));
   lock.unlock();
   changed_.notify_all();

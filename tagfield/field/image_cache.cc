@@ -23,7 +23,7 @@ const ImageSet* ImageCache::find(const RadioScene& scene, std::uint32_t number,
   }
   if (place.order < options.order) {
     drop(place);
-    if (bytes_ >= most_bytes_) return nullptr;
+    if (bytes_ >= max_bytes_) return nullptr;
     place.images = images_of(scene, p_W, options);
     place.order = options.order;
     bytes_ += bytes_of(place.images);

@@ -17,7 +17,7 @@ namespace tagfield {
 /// so that large numbers of tags don't fill the memory. Not thread-safe.
 class ImageCache {
  public:
-  explicit ImageCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+  explicit ImageCache(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
   /// Images of the position for up to `options.order` reflections; null if they are not available.
   /// The pointer is valid until the next call.
@@ -33,7 +33,7 @@ class ImageCache {
   };
   void drop(Place& place);
 
-  std::size_t most_bytes_;
+  std::size_t max_bytes_;
   std::size_t bytes_ = 0;
   std::unordered_map<std::uint32_t, Place> places_;
 };

@@ -21,7 +21,7 @@ const Gen2Reader* inventory_of(const AntennaParameters& antenna) {
 constexpr double kLongestSequence_s = 1e9;
 /// Limits the number for turns of very different lengths; four antennas with equal turns have four
 /// starts.
-constexpr std::int64_t kMostStarts = 4096;
+constexpr std::int64_t kMaxStarts = 4096;
 
 /// Duration of the sequence of all channels of the antenna's reader; zero if it doesn't hop.
 Duration hop_sequence(const RadioModel& model) {
@@ -61,7 +61,7 @@ std::uint32_t radical_inverse(std::uint32_t number) {
 /// apart: ports with equal turns swap channels as early as possible.
 std::vector<Duration> spread_starts(const PortCycle& cycle) {
   const Duration step = shortest_turn(cycle);
-  const std::int64_t count = std::min(rounded_up(period(cycle), step), kMostStarts);
+  const std::int64_t count = std::min(rounded_up(period(cycle), step), kMaxStarts);
   std::vector<std::uint32_t> steps(static_cast<std::size_t>(count));
   std::iota(steps.begin(), steps.end(), 0U);
   std::sort(steps.begin(), steps.end(), [](std::uint32_t a, std::uint32_t b) {

@@ -24,9 +24,9 @@ double share_at(Time time, Time before, Time now) {
 }
 
 double reach(const RadioModel& model, const TagPopulation& tags) {
-  double most_m = 0.0;
-  for (const auto& kind : tags.models()) most_m = std::max(most_m, max_range_m(model, *kind));
-  return most_m;
+  double max_m = 0.0;
+  for (const auto& kind : tags.models()) max_m = std::max(max_m, max_range_m(model, *kind));
+  return max_m;
 }
 
 /// The position of a tag that didn't exist.
@@ -35,7 +35,7 @@ Eigen::Vector3d nowhere() {
 }
 
 /// Enough for the images of several thousand tags in a hall at order 2.
-constexpr std::size_t kMostImageBytes = std::size_t{512} << 20U;
+constexpr std::size_t kMaxImageBytes = std::size_t{512} << 20U;
 
 /// With at most this many tags, computing their images once is cheaper than computing the antenna's
 /// at every update.
@@ -157,7 +157,7 @@ bool has_turn_soon(const AirAntenna& antenna, const std::vector<PortCycle>& cycl
 RadioAir::RadioAir(std::shared_ptr<const RadioWorld> world)
     : world_(std::move(world)),
       memories_(std::make_unique<TagMemories>()),
-      tag_images_(kMostImageBytes) {}
+      tag_images_(kMaxImageBytes) {}
 RadioAir::~RadioAir() = default;
 RadioAir::RadioAir(RadioAir&&) noexcept = default;
 RadioAir& RadioAir::operator=(RadioAir&&) noexcept = default;
@@ -165,7 +165,7 @@ RadioAir& RadioAir::operator=(RadioAir&&) noexcept = default;
 void RadioAir::set_world(std::shared_ptr<const RadioWorld> world) {
   world_ = std::move(world);
   // The images are those of the previous world.
-  tag_images_ = ImageCache(kMostImageBytes);
+  tag_images_ = ImageCache(kMaxImageBytes);
   for (const auto& antenna : antennas_) {
     antenna->images.reset();
     antenna->receiver_images.reset();

@@ -138,7 +138,7 @@ bool is_same(const RigidTransform& one, const RigidTransform& other) {
 }
 
 /// Gains of further carriers are not cached.
-constexpr std::size_t kMostGains = 64;
+constexpr std::size_t kMaxGains = 64;
 
 /// gain_alone(), or the cached gain if both ends have been at rest since and nothing moves.
 Gain gain_again(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
@@ -162,7 +162,7 @@ Gain gain_again(const RadioView& view, const RigidTransform& X_WA, const ImageSe
   }
   Gain gain = gain_alone(view, X_WA, images, tag, memory, paths);
   gain.lambda_m = lambda_m;
-  if (memory->gains.size() < kMostGains) memory->gains.push_back(gain);
+  if (memory->gains.size() < kMaxGains) memory->gains.push_back(gain);
   return gain;
 }
 

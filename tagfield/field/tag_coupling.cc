@@ -11,7 +11,7 @@ namespace tagfield {
 namespace {
 
 /// The number of carriers of most plans with few channels.
-constexpr std::size_t kMostKept = 4;
+constexpr std::size_t kMaxKept = 4;
 
 bool is_wire(const TagAtPose& tag) {
   return tag.model->antenna.polarization == PolarizationKind::kLinear;
@@ -73,17 +73,17 @@ void TagCouplings::remove(std::uint32_t slot) {
 }
 
 void TagCouplings::drop_around(const Eigen::Vector3d& p_W) {
-  index_.within(p_W, most_lambda_m_, near_);
+  index_.within(p_W, max_lambda_m_, near_);
   for (const std::uint32_t slot : near_) seen_[slot].kept.clear();
 }
 
 const CoupledTag& TagCouplings::of(std::uint32_t slot, double lambda_m) {
-  most_lambda_m_ = std::max(most_lambda_m_, lambda_m);
+  max_lambda_m_ = std::max(max_lambda_m_, lambda_m);
   std::vector<Kept>& kept = seen_[slot].kept;
   const auto found = std::find_if(kept.begin(), kept.end(),
                                   [&](const Kept& one) { return one.lambda_m == lambda_m; });
   if (found != kept.end()) return found->coupled;
-  if (kept.size() >= kMostKept) kept.erase(kept.begin());
+  if (kept.size() >= kMaxKept) kept.erase(kept.begin());
   kept.push_back({lambda_m, computed(slot, lambda_m)});
   return kept.back().coupled;
 }
@@ -92,13 +92,13 @@ CoupledTag TagCouplings::computed(std::uint32_t slot, double lambda_m) {
   const Eigen::Vector3d p_W = seen_[slot].tag.X_WT.translation;
   index_.within(p_W, lambda_m, near_);
   near_.erase(std::remove(near_.begin(), near_.end(), slot), near_.end());
-  if (near_.size() > kMostNeighbours) {
+  if (near_.size() > kMaxNeighbours) {
     const auto distance = [&](std::uint32_t other) {
       return (seen_[other].tag.X_WT.translation - p_W).squaredNorm();
     };
     std::stable_sort(near_.begin(), near_.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); });
-    near_.resize(kMostNeighbours);
+    near_.resize(kMaxNeighbours);
     std::sort(near_.begin(), near_.end());
   }
   CoupledTag coupled;

@@ -26,7 +26,7 @@ struct TagAtPose {
 Eigen::RowVectorXcd shares_among(const std::vector<TagAtPose>& tags, double lambda_m);
 
 /// Maximum number of neighbours that couple with a tag: the nearest ones.
-inline constexpr std::size_t kMostNeighbours = 24;
+inline constexpr std::size_t kMaxNeighbours = 24;
 
 /// A tag's neighbours within a wavelength, in ascending order of slots, and its own weight.
 struct CoupledTag {
@@ -61,7 +61,7 @@ class TagCouplings {
   static constexpr double kCell_m = 0.35;
   TagIndex index_{kCell_m};
   std::vector<Seen> seen_;  ///< By slot.
-  double most_lambda_m_ = 0.0;
+  double max_lambda_m_ = 0.0;
   std::vector<std::uint32_t> near_;  ///< Workspace.
 };
 

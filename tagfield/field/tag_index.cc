@@ -77,19 +77,19 @@ void TagIndex::remove(std::uint32_t slot) {
 /// Each slot is written, but counted only if near: branches that depend on distances are
 /// mispredicted.
 void TagIndex::collect(const std::vector<std::uint32_t>& column, const Eigen::Vector3d& center,
-                       double most_square, std::vector<std::uint32_t>& slots) const {
+                       double max_square, std::vector<std::uint32_t>& slots) const {
   std::size_t count = slots.size();
   slots.resize(count + column.size());
   for (const std::uint32_t slot : column) {
     slots[count] = slot;
-    count += (positions_[slot] - center).squaredNorm() <= most_square ? 1U : 0U;
+    count += (positions_[slot] - center).squaredNorm() <= max_square ? 1U : 0U;
   }
   slots.resize(count);
 }
 
-void TagIndex::within_all(const Eigen::Vector3d& center, double most_square,
+void TagIndex::within_all(const Eigen::Vector3d& center, double max_square,
                           std::vector<std::uint32_t>& slots) const {
-  for (const auto& [cell, column] : columns_) collect(column, center, most_square, slots);
+  for (const auto& [cell, column] : columns_) collect(column, center, max_square, slots);
 }
 
 /// If a large share of all slots is given, marking them in a bitmap is faster than a sort by
@@ -115,18 +115,18 @@ void TagIndex::within(const Eigen::Vector3d& center, double radius,
                       std::vector<std::uint32_t>& slots) const {
   slots.clear();
   if (!center.allFinite() || !(radius >= 0.0)) return;
-  const double most_square = largest_square(radius);
+  const double max_square = largest_square(radius);
   const Cell low = cell_of(center.x() - radius, center.y() - radius);
   const Cell high = cell_of(center.x() + radius, center.y() + radius);
   const double cells =
       (static_cast<double>(high.x) - low.x + 1.0) * (static_cast<double>(high.y) - low.y + 1.0);
   if (cells > static_cast<double>(columns_.size())) {
-    within_all(center, most_square, slots);
+    within_all(center, max_square, slots);
   } else {
     for (std::int32_t x = low.x; x <= high.x; ++x) {
       for (std::int32_t y = low.y; y <= high.y; ++y) {
         const auto found = columns_.find({x, y});
-        if (found != columns_.end()) collect(found->second, center, most_square, slots);
+        if (found != columns_.end()) collect(found->second, center, max_square, slots);
       }
     }
   }

@@ -45,9 +45,9 @@ class TagIndex {
 
   [[nodiscard]] Cell cell_of(double x, double y) const;
   void collect(const std::vector<std::uint32_t>& column, const Eigen::Vector3d& center,
-               double most_square, std::vector<std::uint32_t>& slots) const;
+               double max_square, std::vector<std::uint32_t>& slots) const;
   void sort(std::vector<std::uint32_t>& slots) const;
-  void within_all(const Eigen::Vector3d& center, double most_square,
+  void within_all(const Eigen::Vector3d& center, double max_square,
                   std::vector<std::uint32_t>& slots) const;
 
   double cell_m_;

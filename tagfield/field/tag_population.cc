@@ -34,10 +34,10 @@ void read_some(const AntennaParameters& antenna, std::uint64_t antenna_key,
   read_signals(antenna, antenna_key, {keys.data(), count}, {distances_m.data(), count}, stamp, seed,
                {phases_rad.data(), count}, {rssis_dbm.data(), count});
   const double frequency_hz = paper(antenna).model.frequency_hz;
-  const double least_dbm =
+  const double min_dbm =
       paper(antenna).sensitivity_dbm.value_or(-std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < count; ++i) {
-    if (rssis_dbm[i] < least_dbm) continue;
+    if (rssis_dbm[i] < min_dbm) continue;
     // Member by member, because copying a struct that was assembled elsewhere stalls here.
     TagReply& reply = replies.emplace_back();
     reply.slot = slots[i];

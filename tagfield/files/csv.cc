@@ -18,7 +18,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostRowBytes = 1'000'000;  // A row is buffered until it is complete.
+constexpr std::size_t kMaxRowBytes = 1'000'000;  // A row is buffered until it is complete.
 
 /// State filled by libcsv's callbacks.
 struct Filling {
@@ -95,8 +95,8 @@ void parse(std::string_view text, csv_parser& parser, Filling& filling) {
     if (!filling.in_line) ++filling.lines_seen;
     filling.in_line = newline == std::string_view::npos;
     filling.unended += line.size();
-    if (filling.unended > kMostRowBytes) {
-      filling.problem = fmt::format("a row of over {} bytes", kMostRowBytes);
+    if (filling.unended > kMaxRowBytes) {
+      filling.problem = fmt::format("a row of over {} bytes", kMaxRowBytes);
     } else if (csv_parse(&parser, line.data(), line.size(), on_field, on_row, &filling) !=
                line.size()) {
       filling.problem = csv_strerror(csv_error(&parser));
@@ -171,9 +171,9 @@ Eigen::Vector3d CsvTable::position(const CsvRow& row,
 
 double CsvTable::length(const CsvRow& row, std::size_t column, double metres) const {
   const double value = metres * number(row, column);
-  if (std::abs(value) > kMostCoordinate_m) {
+  if (std::abs(value) > kMaxCoordinate_m) {
     fail({file, row.line}, fmt::format("{} is {:g} m, expected a position within ±{:g} m",
-                                       header[column], value, kMostCoordinate_m));
+                                       header[column], value, kMaxCoordinate_m));
   }
   return value;
 }

@@ -145,15 +145,15 @@ Partial partial_of(const std::string& path) {
 
 }  // namespace
 
-std::string read_text_file(const std::string& path, std::size_t most_bytes) {
+std::string read_text_file(const std::string& path, std::size_t max_bytes) {
   const Opened file = opened(path);
   std::string text;
   try {
-    text.reserve(std::min(require_file(file.get(), path), most_bytes));
+    text.reserve(std::min(require_file(file.get(), path), max_bytes));
     read_all(file.get(), path, [&](std::string_view bytes) {
       text += bytes;
-      if (text.size() > most_bytes) {
-        fail({path, 0}, fmt::format("is longer than {} bytes", most_bytes));
+      if (text.size() > max_bytes) {
+        fail({path, 0}, fmt::format("is longer than {} bytes", max_bytes));
       }
     });
   } catch (const std::bad_alloc&) {

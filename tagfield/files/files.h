@@ -14,8 +14,8 @@
 namespace tagfield {
 
 /// The whole content of a file or pipe. Throws Error if it is missing, a folder or a device,
-/// exceeds `most_bytes`, or can't be read to its end.
-std::string read_text_file(const std::string& path, std::size_t most_bytes = std::size_t{1} << 36U);
+/// exceeds `max_bytes`, or can't be read to its end.
+std::string read_text_file(const std::string& path, std::size_t max_bytes = std::size_t{1} << 36U);
 
 /// Same, but passes blocks of bytes to `take`. Throws Error as that does, and exceptions of `take`.
 void read_in_blocks(const std::string& path, const std::function<void(std::string_view)>& take);

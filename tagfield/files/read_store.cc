@@ -69,13 +69,13 @@ class ReadStore::Names {
 
 PartPlan plan_parts(const ReadOverview& overview, std::size_t reads_of_part,
                     const std::set<std::string>& everywhere) {
-  const std::size_t most = std::max(reads_of_part, overview.count / kMostParts + 1);
+  const std::size_t most = std::max(reads_of_part, overview.count / kMaxParts + 1);
   PartPlan plan;
   std::size_t in_part = 0;
   for (const std::string& tag : overview.tags) {
     if (everywhere.count(tag) > 0) continue;
     const std::size_t reads = overview.count_by_tag.at(tag);
-    if (in_part > 0 && in_part + reads > most && plan.count < kMostParts) {
+    if (in_part > 0 && in_part + reads > most && plan.count < kMaxParts) {
       ++plan.count;
       in_part = 0;
     }

@@ -25,10 +25,10 @@ struct PartPlan {
 };
 
 /// Maximum number of parts, so that each can have an open file.
-inline constexpr std::size_t kMostParts = 800;
+inline constexpr std::size_t kMaxParts = 800;
 
 /// Assigns tags in order of their first reads, so that neighbours are together, until a part has
-/// `reads_of_part` reads, or more if there would be over kMostParts parts. Tags in `everywhere`,
+/// `reads_of_part` reads, or more if there would be over kMaxParts parts. Tags in `everywhere`,
 /// which all parts need, are not counted.
 PartPlan plan_parts(const ReadOverview& overview, std::size_t reads_of_part,
                     const std::set<std::string>& everywhere);

@@ -14,16 +14,16 @@ namespace tagfield {
 
 /// Damping schedule and stopping criteria.
 struct LevenbergMarquardt {
-  int most_steps = 30;  ///< Including rejected ones.
+  int max_steps = 30;  ///< Including rejected ones.
   double damping = 1e-3;
-  double least_damping = 1e-9;  ///< An accepted step divides the damping by ten, down to this.
-  double raise = 10.0;          ///< A rejected step multiplies it by this,
-  double least_raised = 0.0;    ///< to at least this value.
-  double most_damping = std::numeric_limits<double>::infinity();  ///< Ends the search.
+  double min_damping = 1e-9;  ///< An accepted step divides the damping by ten, down to this.
+  double raise = 10.0;        ///< A rejected step multiplies it by this,
+  double min_raised = 0.0;    ///< to at least this value.
+  double max_damping = std::numeric_limits<double>::infinity();  ///< Ends the search.
   /// A step that gains less is accepted as the last one; 0 disables this.
-  double least_gain = 0.0;
+  double min_gain = 0.0;
   /// As above, relative to the cost or to 1, whichever is larger.
-  double least_relative_gain = 0.0;
+  double min_relative_gain = 0.0;
 };
 
 /// Descends from `here`. A Point has a `cost`. `step(point, damping)` returns the point after the
@@ -33,18 +33,17 @@ struct LevenbergMarquardt {
 template <typename Point, typename Step>
 Point descend(Point here, const LevenbergMarquardt& how, Step&& step) {
   double damping = how.damping;
-  for (int i = 0; i < how.most_steps && damping < how.most_damping; ++i) {
+  for (int i = 0; i < how.max_steps && damping < how.max_damping; ++i) {
     std::optional<Point> there = step(std::as_const(here), damping);
     if (!there) break;
     const double gain = here.cost - there->cost;
-    const double least =
-        std::max(how.least_gain, how.least_relative_gain * std::max(1.0, there->cost));
+    const double least = std::max(how.min_gain, how.min_relative_gain * std::max(1.0, there->cost));
     if (gain > 0.0 || (gain == 0.0 && least > 0.0)) {
       here = std::move(*there);
-      damping = std::max(0.1 * damping, how.least_damping);
+      damping = std::max(0.1 * damping, how.min_damping);
       if (gain < least) break;
     } else {
-      damping = std::max(how.raise * damping, how.least_raised);
+      damping = std::max(how.raise * damping, how.min_raised);
     }
   }
   return here;

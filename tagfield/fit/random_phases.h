@@ -20,13 +20,13 @@
 namespace tagfield {
 
 /// Noise at which phases are practically random [rad].
-inline constexpr double kMostPhaseNoise_rad = 2.0;
+inline constexpr double kMaxPhaseNoise_rad = 2.0;
 
 /// Least log B of a credible fit: log 100.
-inline const double kLeastEvidence = std::log(100.0);
+inline const double kMinEvidence = std::log(100.0);
 
 /// Σ log 2π f(e) of residuals in (−π, π], and the cost of the prior of their noise [rad], which was
-/// estimated from them and may be anywhere between `min_noise_rad` and kMostPhaseNoise_rad.
+/// estimated from them and may be anywhere between `min_noise_rad` and kMaxPhaseNoise_rad.
 double evidence_of_residuals(const std::vector<double>& residuals, double noise_rad,
                              double min_noise_rad);
 

@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostEpcWords = 31;
+constexpr std::size_t kMaxEpcWords = 31;
 /// Words of the EPC bank before the EPC: CRC and PC.
 constexpr std::size_t kEpcBegins = 2;
 
@@ -28,7 +28,7 @@ std::uint16_t crc16(const Words& words) {
 }
 
 MemoryBanks::MemoryBanks(const Words& epc, Words tid, std::size_t user_words) {
-  if (epc.size() > kMostEpcWords) throw Error("an EPC has at most 496 bits");
+  if (epc.size() > kMaxEpcWords) throw Error("an EPC has at most 496 bits");
   banks_[number(Bank::kReserved)].assign(4, 0);
   Words& bank = banks_[number(Bank::kEpc)];
   bank = {0, static_cast<std::uint16_t>(epc.size() << 11U)};

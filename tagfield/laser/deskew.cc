@@ -66,7 +66,7 @@ std::vector<MovedBeam> moved_beams(const LaserScan& scan,
 bool on_one_surface(const MovedBeam& a, const MovedBeam& b, double step_rad) {
   if (a.kind != Beam::kReturn || b.kind != Beam::kReturn) return false;
   const double across = std::min(a.measured_m, b.measured_m) * step_rad;
-  const double allowed = std::max(kSameSurfaceStep, across / std::tan(kLeastIncidence));
+  const double allowed = std::max(kSameSurfaceStep, across / std::tan(kMinIncidence));
   return std::abs(a.measured_m - b.measured_m) <= allowed;
 }
 

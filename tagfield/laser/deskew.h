@@ -14,7 +14,7 @@ namespace tagfield {
 /// Neighbouring beams share a surface if their ranges differ by at most this [m], mainly noise, …
 inline constexpr double kSameSurfaceStep = 0.05;
 /// … or if the angle between the beams and the surface through their ends is at least this [rad].
-inline constexpr double kLeastIncidence = 0.1745;
+inline constexpr double kMinIncidence = 0.1745;
 
 /// The scan as if all its beams had been taken simultaneously with the last one: its timestamp is
 /// that of the last beam, its beam interval 0, its angles are unchanged. A scan with interval 0 is

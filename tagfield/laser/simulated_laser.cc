@@ -17,10 +17,10 @@
 namespace tagfield {
 namespace {
 
-constexpr int kMostBeams = 100'000;
-constexpr double kMostMetres = 1000.0;
-constexpr double kMostRateHz = 10'000.0;
-constexpr double kMostSigmaM = 10.0;
+constexpr int kMaxBeams = 100'000;
+constexpr double kMaxMetres = 1000.0;
+constexpr double kMaxRateHz = 10'000.0;
+constexpr double kMaxSigmaM = 10.0;
 /// A full turn, with tolerance for values written with nine decimals.
 constexpr double kFullTurn = kTwoPi + 1e-8;
 
@@ -148,7 +148,7 @@ Beams beams_of(const LaserParameters& laser, const LaserScan& scan,
                const std::function<RigidTransform(Time)>& pose_at,
                const std::function<Obstacles(Time)>& obstacles_at) {
   // Slightly further, so that a wall exactly at the maximum range is hit.
-  const float most_m = nothing_range(laser.max_range_m);
+  const float max_m = nothing_range(laser.max_range_m);
   const Eigen::Matrix2d turn = rotation_in_plane(scan.angle_step_rad);
   Eigen::Vector2d direction_L(cosine(scan.first_angle_rad), sine(scan.first_angle_rad));
   Beams beams;
@@ -161,7 +161,7 @@ Beams beams_of(const LaserParameters& laser, const LaserScan& scan,
       view = view_at(laser, scan.stamp + later, pose_at, obstacles_at);
     }
     const Eigen::Vector3d direction = view.R_WL.leftCols<2>() * direction_L;
-    beams.rays.push_back({view.origin, direction.cast<float>(), most_m});
+    beams.rays.push_back({view.origin, direction.cast<float>(), max_m});
     beams.to_obstacles.push_back(to_obstacle(view, beams.rays.back()));
     direction_L = turn * direction_L;
   }
@@ -183,24 +183,24 @@ void check(const LaserParameters& laser) {
   const double span = laser.last_angle_rad - laser.first_angle_rad;
   const double mounted_m = laser.X_RL.translation.norm();
   const double length = laser.X_RL.rotation.norm();
-  require(laser.beams >= 2 && laser.beams <= kMostBeams, "laser: beams",
-          fmt::format("2 to {}", kMostBeams), laser.beams);
+  require(laser.beams >= 2 && laser.beams <= kMaxBeams, "laser: beams",
+          fmt::format("2 to {}", kMaxBeams), laser.beams);
   require(std::abs(laser.first_angle_rad) <= kFullTurn, "laser: first_angle_rad", "within ±2π",
           laser.first_angle_rad);
   require(span > 0.0 && span <= kFullTurn, "laser: last_angle_rad",
           "greater than first_angle_rad, by 2π at most", laser.last_angle_rad);
   require(laser.min_range_m >= 0.0, "laser: min_range_m", "0 or more", laser.min_range_m);
-  require(laser.max_range_m > laser.min_range_m && laser.max_range_m <= kMostMetres,
-          "laser: max_range_m", fmt::format("greater than min_range_m and {} at most", kMostMetres),
+  require(laser.max_range_m > laser.min_range_m && laser.max_range_m <= kMaxMetres,
+          "laser: max_range_m", fmt::format("greater than min_range_m and {} at most", kMaxMetres),
           laser.max_range_m);
-  require(laser.rate_hz > 0.0 && laser.rate_hz <= kMostRateHz, "laser: rate_hz",
-          fmt::format("greater than 0 and {} at most", kMostRateHz), laser.rate_hz);
-  require(laser.sigma_m >= 0.0 && laser.sigma_m <= kMostSigmaM, "laser: sigma_m",
-          fmt::format("0 to {}", kMostSigmaM), laser.sigma_m);
+  require(laser.rate_hz > 0.0 && laser.rate_hz <= kMaxRateHz, "laser: rate_hz",
+          fmt::format("greater than 0 and {} at most", kMaxRateHz), laser.rate_hz);
+  require(laser.sigma_m >= 0.0 && laser.sigma_m <= kMaxSigmaM, "laser: sigma_m",
+          fmt::format("0 to {}", kMaxSigmaM), laser.sigma_m);
   require(laser.sweep_s >= 0.0 && laser.sweep_s < 1.0 / laser.rate_hz, "laser: sweep_s",
           "0 or more and less than 1/rate_hz", laser.sweep_s);
-  require(mounted_m <= kMostMetres, "laser: X_RL",
-          fmt::format("within {} m of the base", kMostMetres), mounted_m);
+  require(mounted_m <= kMaxMetres, "laser: X_RL",
+          fmt::format("within {} m of the base", kMaxMetres), mounted_m);
   require(std::abs(length - 1.0) < 1e-6, "laser: X_RL", "a rotation, of length 1", length);
 }
 

@@ -17,7 +17,7 @@ namespace tagfield {
 namespace {
 
 constexpr double kStop_m = 0.5;
-constexpr double kMostBytes = 4e9;
+constexpr double kMaxBytes = 4e9;
 
 std::vector<LinkRow> rows_of(const PlanSpec& plan) {
   std::vector<LinkRow> rows;
@@ -259,11 +259,11 @@ LinkMatrix evaluate_links(const ScenarioToPlan& to_plan, const LinkMatrixRequest
     matrix.carriers.push_back(sampled_carriers(model).size());
     bytes += static_cast<double>(matrix.rows.size() * kFadingPositions * matrix.carriers.back());
   }
-  if (bytes > kMostBytes) {
+  if (bytes > kMaxBytes) {
     throw Error(fmt::format(
         "plan: {} ways to mount an antenna and {} tag positions and orientations make a matrix of "
         "{:.1f} GB, over {:g}: expected fewer, by a greater spacing_m or fewer orientations",
-        matrix.columns.size(), matrix.rows.size(), 1e-9 * bytes, 1e-9 * kMostBytes));
+        matrix.columns.size(), matrix.rows.size(), 1e-9 * bytes, 1e-9 * kMaxBytes));
   }
   counts.columns = matrix.columns.size();
   matrix.steps.resize(matrix.columns.size());

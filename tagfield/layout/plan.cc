@@ -16,7 +16,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostHard = 20;
+constexpr std::size_t kMaxHard = 20;
 constexpr double kHard = 0.9;  ///< From this probability on, a position is not hard to read.
 constexpr double kLessPower_db = 2.0;
 constexpr double kDetuning_db = 3.0;
@@ -264,10 +264,10 @@ class Planner {
       const PlannedLayout& layout = plan.layouts[i];
       if (layout.share >= share && layout.cost < plan.layouts[plan.chosen].cost) plan.chosen = i;
     }
-    constexpr int kMostSteps = 200;
+    constexpr int kMaxSteps = 200;
     constexpr double kLess = 1e-6;
     SelectionProblem cheaper = problem_.selection;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
       cheaper.limits.cost = plan.layouts[plan.chosen].cost * (1.0 - kLess);
       const OptionSet choice = layout_of(
           cheaper, {greedy_order(cheaper), greedy_order(cheaper, true)}, cheaper.limits.antennas);
@@ -318,7 +318,7 @@ class Planner {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return layout.places[a] < layout.places[b];
     });
-    if (order.size() > kMostHard) order.resize(kMostHard);
+    if (order.size() > kMaxHard) order.resize(kMaxHard);
     for (const std::size_t place : order) {
       std::size_t group = 0;
       std::size_t within = place;

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeastGain = 1e-12;
+constexpr double kMinGain = 1e-12;
 
 OptionSet with(OptionSet choice, std::size_t option) {
   choice.insert(std::upper_bound(choice.begin(), choice.end(), option), option);
@@ -154,7 +154,7 @@ std::vector<std::size_t> greedy_order(const SelectionProblem& problem, bool by_c
   while (!queue.empty() && order.size() < problem.limits.antennas) {
     Entry top = queue.top();
     queue.pop();
-    if (top.value < kLeastGain) break;
+    if (top.value < kMinGain) break;
     if (top.round < order.size()) {
       top.value = value_of(top.option, tally.gain(top.option));
       top.round = order.size();

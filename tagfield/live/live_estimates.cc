@@ -19,9 +19,9 @@ using Wall = std::chrono::steady_clock;
 
 /// Target time for locating a batch of tags, so that none waits long for the others.
 constexpr std::chrono::duration<double> kRound(0.5);
-constexpr std::size_t kMostAtOnce = 1000;
+constexpr std::size_t kMaxAtOnce = 1000;
 /// Maximum number of tags whose estimates are kept.
-constexpr std::size_t kMostEstimates = 200'000;
+constexpr std::size_t kMaxEstimates = 200'000;
 /// Interval between checks for new reads.
 constexpr std::chrono::milliseconds kLookAgain(100);
 /// Priority of estimates for CPU time beside the simulation (nice(1)).
@@ -41,7 +41,7 @@ std::map<std::string, Time> last_reads(const std::vector<TagRead>& reads) {
 class LiveEstimates::Impl {
  public:
   explicit Impl(LiveEstimateOptions asked)
-      : window(asked.window, asked.most_reads), options_(std::move(asked.localization)) {
+      : window(asked.window, asked.max_reads), options_(std::move(asked.localization)) {
     Diagnostics unheard;
     locate_tags({}, {}, options_, unheard);
     options_.threads = 1;
@@ -116,8 +116,8 @@ void LiveEstimates::Impl::work() {
     const Wall::time_point begin = Wall::now();
     locate(taken, of_epoch);
     const std::chrono::duration<double> took = Wall::now() - begin;
-    at_once_ = took < kRound ? std::min(2 * at_once_, kMostAtOnce)
-                             : std::max<std::size_t>(1, at_once_ / 2);
+    at_once_ =
+        took < kRound ? std::min(2 * at_once_, kMaxAtOnce) : std::max<std::size_t>(1, at_once_ / 2);
   }
   const std::lock_guard<std::mutex> guard(lock);
   has_ended_ = true;
@@ -152,7 +152,7 @@ void LiveEstimates::Impl::keep(LiveEstimate estimate) {
   kept = std::move(estimate);
   kept.number = ++number;
   by_number[number] = tag;
-  if (estimates.size() <= kMostEstimates) return;
+  if (estimates.size() <= kMaxEstimates) return;
   estimates.erase(by_number.begin()->second);
   by_number.erase(by_number.begin());
 }

@@ -24,7 +24,7 @@ struct LiveEstimate {
 struct LiveEstimateOptions {
   LocalizationOptions localization;
   Duration window = std::chrono::seconds(120);  ///< Of simulated time; older reads don't count.
-  std::size_t most_reads = 2'000'000;  ///< In all, equally divided, but at least 100 per tag.
+  std::size_t max_reads = 2'000'000;  ///< In all, equally divided, but at least 100 per tag.
 };
 
 /// An outlet. Locates tags repeatedly, those with the largest fraction of new reads first, in its

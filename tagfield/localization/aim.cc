@@ -131,7 +131,7 @@ double weight_of_mean(const Nearest& of, double variance) {
 
 /// B over its standard deviation: how significantly RSSI increases towards the boresight.
 double forward_score(const std::vector<AimedSeries>& all, const Eigen::Vector3d& p_WT) {
-  constexpr double kLeastVariance = 1.0;  // [dB²]
+  constexpr double kMinVariance = 1.0;  // [dB²]
   const double farthest = farthest_of_nearest(all, p_WT);
   std::vector<Nearest> nearest;
   nearest.reserve(all.size());
@@ -139,7 +139,7 @@ double forward_score(const std::vector<AimedSeries>& all, const Eigen::Vector3d&
     nearest.push_back(nearest_of(series, p_WT, farthest));
     if (nearest.back().x.size() < 2) nearest.pop_back();
   }
-  double variance = kLeastVariance;
+  double variance = kMinVariance;
   for (const Nearest& of : nearest) variance = std::max(variance, of.scatter());
   Regression sums;
   for (const Nearest& of : nearest) {
@@ -176,9 +176,9 @@ void drop_behind(const std::vector<AimedSeries>& all, TagEstimate& estimate) {
 /// Located tags that are tested for being in front of the antennas, evenly spaced.
 std::vector<const TagEstimate*> asked(const LocalizationProblem& problem,
                                       const LocalizationResult& result) {
-  constexpr std::size_t kMostTags = 40;
+  constexpr std::size_t kMaxTags = 40;
   std::vector<const TagEstimate*> some;
-  for (const std::size_t i : some_of(claimed_tags(problem, result), kMostTags)) {
+  for (const std::size_t i : some_of(claimed_tags(problem, result), kMaxTags)) {
     some.push_back(&result.estimates[i]);
   }
   return some;

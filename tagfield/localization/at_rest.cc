@@ -31,8 +31,8 @@ using Index = Eigen::Index;
 using Unknowns = Eigen::Matrix<double, 5, 1>;
 using Normal = Eigen::Matrix<double, 5, 5>;
 
-constexpr double kMostLateness = 10.0;  ///< [s]
-constexpr double kMostSpeed = 3.0;      ///< Maximum speed of a tag [m/s].
+constexpr double kMaxLateness = 10.0;  ///< [s]
+constexpr double kMaxSpeed = 3.0;      ///< Maximum speed of a tag [m/s].
 constexpr Index kFewestToJudge = 30;
 /// Keeps the normal matrix regular where unknowns are not observable.
 constexpr double kRidge = 1e-9;
@@ -192,8 +192,8 @@ RestPoint at(const Followed& of, const Unknowns& unknowns) {
 
 bool is_possible(const Followed& of, const Unknowns& unknowns) {
   return unknowns.allFinite() &&
-         (of.departure == Departure::kMotion ? unknowns.tail<2>().norm() < kMostSpeed
-                                             : std::abs(unknowns[3]) < kMostLateness);
+         (of.departure == Departure::kMotion ? unknowns.tail<2>().norm() < kMaxSpeed
+                                             : std::abs(unknowns[3]) < kMaxLateness);
 }
 
 /// ln of the likelihood of a position (segments.h), with the antennas moved by the departure. The
@@ -252,8 +252,8 @@ bool is_elsewhere(const DepartureFit& fit, const Candidate& claim) {
 
 RestPoint fitted(const Followed& of, const Unknowns& start) {
   LevenbergMarquardt how;
-  how.most_damping = 1e8;
-  how.least_relative_gain = 1e-9;
+  how.max_damping = 1e8;
+  how.min_relative_gain = 1e-9;
   using Next = std::optional<RestPoint>;
   return descend(at(of, start), how, [&](const RestPoint& here, double damping) -> Next {
     const Unknowns next =

@@ -191,7 +191,7 @@ LocalizationResult locate_robustly(const std::vector<Method>& methods,
 }
 
 /// Largest number of tags located with a known world unless requested: each takes seconds.
-constexpr std::size_t kMostThroughWorld = 100;
+constexpr std::size_t kMaxThroughWorld = 100;
 
 /// Whether a known world is available and may be used.
 bool is_through_world(const AutomaticOptions& options, const LocalizationProblem& problem,
@@ -203,11 +203,11 @@ bool is_through_world(const AutomaticOptions& options, const LocalizationProblem
         "model: multipath has one)");
   }
   if (!problem.trace || !traits.antennas_move || !traits.has_phases) return false;
-  if (problem.samples.size() <= kMostThroughWorld || options.wants_known_world) return true;
+  if (problem.samples.size() <= kMaxThroughWorld || options.wants_known_world) return true;
   diagnostics.warn(
       fmt::format("the world is known, but tracing its reflections for more than {} tags takes "
                   "long: {} are located without it (known_world: true uses it nevertheless)",
-                  kMostThroughWorld, problem.samples.size()));
+                  kMaxThroughWorld, problem.samples.size()));
   return false;
 }
 

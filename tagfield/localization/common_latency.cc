@@ -30,12 +30,12 @@ using Eigen::Vector3d;
 /// they only decide whether to search with many.
 constexpr std::size_t kFewReads = 400;
 constexpr std::size_t kManyReads = 3000;
-constexpr std::size_t kMostTags = 20;
-constexpr double kMostTravel = 1.2;    ///< During the latency [m].
-constexpr double kMostLatency = 10.0;  ///< [s]
-constexpr double kSuspicious = 4.6;    ///< ln of 10².
-constexpr double kCertain = 9.2;       ///< ln of 10⁴.
-constexpr double kLeastSpeed = 1e-3;   ///< Below this speed no latency is observable [m/s].
+constexpr std::size_t kMaxTags = 20;
+constexpr double kMaxTravel = 1.2;    ///< During the latency [m].
+constexpr double kMaxLatency = 10.0;  ///< [s]
+constexpr double kSuspicious = 4.6;   ///< ln of 10².
+constexpr double kCertain = 9.2;      ///< ln of 10⁴.
+constexpr double kMinSpeed = 1e-3;    ///< Below this speed no latency is observable [m/s].
 
 /// A located tag whose reads are used.
 struct Witness {
@@ -209,7 +209,7 @@ std::optional<Witness> witness_of(const LocalizationProblem& problem,
 
 std::vector<Witness> witnesses_of(const LocalizationProblem& problem, int threads,
                                   const LocalizationResult& result, std::size_t reads) {
-  const std::vector<std::size_t> some = some_of(claimed_tags(problem, result), kMostTags);
+  const std::vector<std::size_t> some = some_of(claimed_tags(problem, result), kMaxTags);
   std::vector<std::optional<Witness>> found(some.size());
   parallel_for(some.size(), threads,
                [&](std::size_t i) { found[i] = witness_of(problem, result, some[i], reads); });
@@ -233,9 +233,9 @@ std::vector<double> latencies_for(const LocalizationProblem& problem,
   }
   std::vector<double> all{0.0};
   const double speed = sum.seconds > 0.0 ? sum.metres / sum.seconds : 0.0;
-  if (!(speed > kLeastSpeed)) return all;
+  if (!(speed > kMinSpeed)) return all;
   const double step = wavelength / 8.0 / speed;
-  const double most = std::min(kMostTravel / speed, kMostLatency);
+  const double most = std::min(kMaxTravel / speed, kMaxLatency);
   for (int k = 1; k * step <= most; ++k) {
     all.push_back(k * step);
     all.push_back(-k * step);
@@ -267,10 +267,10 @@ CommonLatency likeliest_of(const std::vector<double>& latencies,
 }
 
 /// The most likely latency from `reads` reads per tag [s]; nullopt if its log-likelihood does not
-/// exceed that of no latency by `least_gain`.
+/// exceed that of no latency by `min_gain`.
 std::optional<double> latency_by(const LocalizationProblem& problem, int threads,
                                  const LocalizationResult& result, std::size_t reads,
-                                 double least_gain) {
+                                 double min_gain) {
   std::vector<Witness> witnesses = witnesses_of(problem, threads, result, reads);
   const std::vector<double> latencies = latencies_for(problem, witnesses);
   std::vector<std::vector<double>> log_likelihoods(witnesses.size());
@@ -280,7 +280,7 @@ std::optional<double> latency_by(const LocalizationProblem& problem, int threads
     }
   });
   const CommonLatency best = likeliest_of(latencies, log_likelihoods);
-  if (best.log_gain < least_gain || 2 * best.in_favour < witnesses.size()) return std::nullopt;
+  if (best.log_gain < min_gain || 2 * best.in_favour < witnesses.size()) return std::nullopt;
   return best.late_s;
 }
 

@@ -14,7 +14,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeastPower = 0.5;
+constexpr double kMinPower = 0.5;
 constexpr double kDeviations = 3.0;
 
 /// Share of the phases' power explained at the position, in [0, 1].
@@ -54,7 +54,7 @@ std::vector<std::size_t> doubtful(const LocalizationProblem& problem,
     const TagEstimate& estimate = result.estimates[i];
     if (estimate.verdict != Verdict::kLocated || problem.samples.count(estimate.tag) == 0) continue;
     if (problem.reference_tags.count(estimate.tag) > 0) continue;
-    if (explained_power(problem, estimate) < kLeastPower) numbers.push_back(i);
+    if (explained_power(problem, estimate) < kMinPower) numbers.push_back(i);
   }
   return numbers;
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kUnboundedVariance = 1e12;  // [m²]
 constexpr double kSameFit = 0.03;            ///< Fits nearer than this are the same [m].
-constexpr std::size_t kMostCandidates = 8;   ///< Maximum per tag.
+constexpr std::size_t kMaxCandidates = 8;    ///< Maximum per tag.
 
 double mean_square_wavenumber(const TagPhases& phases) { return phases.wavenumber.square().mean(); }
 
@@ -27,7 +27,7 @@ std::vector<TagFit> distinct(std::vector<TagFit> fits) {
     const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const TagFit& other) {
       return (other.unknowns - fit.unknowns).head<2>().norm() < kSameFit;
     });
-    if (is_new && kept.size() < kMostCandidates) kept.push_back(std::move(fit));
+    if (is_new && kept.size() < kMaxCandidates) kept.push_back(std::move(fit));
   }
   return kept;
 }
@@ -165,13 +165,13 @@ Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height
 
 Candidate make_candidate(const HeightModel& height, const PositionVector& unknowns,
                          const Eigen::Matrix3d& covariance, double rms_m) {
-  constexpr double kMostError = 1e6;  // [m]
+  constexpr double kMaxError = 1e6;  // [m]
   Candidate candidate;
   candidate.p_WT = to_position(height, unknowns);
   candidate.rms_m = rms_m;
   candidate.covariance = to_position_covariance(height, unknowns, covariance);
   candidate.expected_error_m =
-      std::min(std::sqrt(covariance.topLeftCorner<2, 2>().trace()), kMostError);
+      std::min(std::sqrt(covariance.topLeftCorner<2, 2>().trace()), kMaxError);
   return candidate;
 }
 
@@ -198,7 +198,7 @@ std::vector<Candidate> make_candidates(const TagPhases& phases, const HeightMode
 std::vector<PositionVector> spread_starts(const TagPhases& phases, const HeightModel& height,
                                           const TagFit& fit, const Eigen::Matrix3d& covariance) {
   constexpr double kDeviations = 3.0;
-  constexpr int kMostSteps = 40;
+  constexpr int kMaxSteps = 40;
   constexpr double kFarthest = 2.0;  // [m]
   std::vector<PositionVector> starts{fit.unknowns};
   const SymmetricEigen<3> axes = symmetric_eigen(covariance);
@@ -206,7 +206,7 @@ std::vector<PositionVector> spread_starts(const TagPhases& phases, const HeightM
   const double reach = std::min(kDeviations * std::sqrt(std::max(axes.values[2], 0.0)), kFarthest);
   const double eighth = longest_cycle(phases) / 4.0;  // A cycle is half a wavelength.
   const double step = eighth / std::max(range_rate_spread(phases, height, fit, direction), 1e-6);
-  const int steps = std::min(kMostSteps, static_cast<int>(std::floor(reach / step)));
+  const int steps = std::min(kMaxSteps, static_cast<int>(std::floor(reach / step)));
   for (int i = 1; i <= steps; ++i) {
     starts.push_back(fit.unknowns + i * step * direction);
     starts.push_back(fit.unknowns - i * step * direction);

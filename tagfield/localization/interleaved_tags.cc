@@ -18,7 +18,7 @@ constexpr double kNearTravel = 0.5;  ///< Of a cycle, λ/2.
 constexpr double kApart = 0.3;       ///< [rad]
 constexpr double kLoneBy = 5.0;
 constexpr std::size_t kFewestTriples = 60;
-constexpr double kMostLone = 0.3;
+constexpr double kMaxLone = 0.3;
 constexpr double kMostLoneOfApart = 0.5;
 
 double travel_between(const TagPhases& phases, Eigen::Index i, Eigen::Index j) {
@@ -42,7 +42,7 @@ void add(const TagPhases& phases, const TagPhases::Span& span, const Eigen::Arra
 
 bool are_of_two_tags(const PhaseTriples& triples) {
   const auto lone = static_cast<double>(triples.lone);
-  return triples.count >= kFewestTriples && lone > kMostLone * static_cast<double>(triples.count) &&
+  return triples.count >= kFewestTriples && lone > kMaxLone * static_cast<double>(triples.count) &&
          lone > kMostLoneOfApart * static_cast<double>(triples.apart);
 }
 

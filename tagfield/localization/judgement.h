@@ -17,7 +17,7 @@ inline constexpr PoseErrorModel kUsualPoseError{0.02, 0.02, 5.0};
 
 /// ln 100: log evidence required that RSSI follows a path-loss law; chance reaches it in one case
 /// in a hundred.
-inline constexpr double kLeastLogEvidence = 4.6;
+inline constexpr double kMinLogEvidence = 4.6;
 
 /// Minimum number of reads to locate a tag.
 inline constexpr std::size_t kFewestReads = 8;

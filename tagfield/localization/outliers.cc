@@ -17,8 +17,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeastSigma = 1e-3;  ///< [rad]
-constexpr double kMostOutliers = 0.2;
+constexpr double kMinSigma = 1e-3;  ///< [rad]
+constexpr double kMaxOutliers = 0.2;
 
 /// Density of wrapped normal noise with a standard deviation well under π.
 Eigen::ArrayXd normal_density(const Eigen::ArrayXd& angles, double sigma) {
@@ -26,7 +26,7 @@ Eigen::ArrayXd normal_density(const Eigen::ArrayXd& angles, double sigma) {
 }
 
 double root_mean_square(const Eigen::ArrayXd& angles) {
-  return std::max(std::sqrt(angles.square().mean()), kLeastSigma);
+  return std::max(std::sqrt(angles.square().mean()), kMinSigma);
 }
 
 double median_deviation(const Eigen::ArrayXd& angles) {
@@ -34,7 +34,7 @@ double median_deviation(const Eigen::ArrayXd& angles) {
   for (double& size : sizes) size = std::abs(size);
   const auto half = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), half, sizes.end());
-  return std::max(*half / 0.6745, kLeastSigma);
+  return std::max(*half / 0.6745, kMinSigma);
 }
 
 /// The brightest of the positions found, after climbing to the maximum; the search ranks them by
@@ -83,7 +83,7 @@ OutlierMixture outlier_mixture(const Eigen::ArrayXd& angles) {
     mixture.probability = 1.0 - of_noise / (of_noise + mixture.share / kTwoPi);
     const Eigen::ArrayXd weights = 1.0 - mixture.probability;
     const double sum = std::max(weights.sum(), 1e-9);
-    mixture.sigma_rad = std::max(std::sqrt((weights * angles.square()).sum() / sum), kLeastSigma);
+    mixture.sigma_rad = std::max(std::sqrt((weights * angles.square()).sum() / sum), kMinSigma);
     mixture.share = std::clamp(mixture.probability.mean(), 1e-6, 1.0);
   }
   const Eigen::ArrayXd alone = normal_density(angles, root_mean_square(angles));
@@ -110,7 +110,7 @@ Eigen::ArrayXd less_neighbours(const TagPhases& phases, const Eigen::ArrayXd& re
 }
 
 bool has_outliers(const OutlierMixture& mixture) {
-  return mixture.share < kMostOutliers &&
+  return mixture.share < kMaxOutliers &&
          mixture.evidence > std::log(static_cast<double>(mixture.probability.size()));
 }
 

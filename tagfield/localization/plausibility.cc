@@ -18,7 +18,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kMostChance = 1e-4;
+constexpr double kMaxChance = 1e-4;
 constexpr double kReach = 12.0;  ///< Positions are searched within this range [m].
 
 /// ln E e^(λ·2|cos(θ/2)|) over all θ, by the midpoint rule.
@@ -59,8 +59,8 @@ double log_chance_at(const TagPhases& phases, const HeightModel& height,
 }
 
 /// The least over several aperture lengths: pose errors and reflections spoil long ones.
-double least_log_chance(const LocalizationProblem& problem, const std::string& tag,
-                        const SamplesOfTag& samples, const Eigen::Vector3d& p_WT) {
+double min_log_chance(const LocalizationProblem& problem, const std::string& tag,
+                      const SamplesOfTag& samples, const Eigen::Vector3d& p_WT) {
   const TagPhases phases = coherent_reads(problem, samples);
   if (phases.size() == 0) return 0.0;
   const HeightModel height = height_model(problem, tag, phases);
@@ -113,11 +113,11 @@ std::vector<Eigen::Vector2d> places_of(const SamplesOfTag& samples) {
 
 /// Refuses the estimate if the phase residuals at a position [rad] are such a mixture.
 void refuse_mixture(const Eigen::ArrayXd& angles, TagEstimate& estimate) {
-  constexpr double kMostElsewhere = 0.25;
+  constexpr double kMaxElsewhere = 0.25;
   constexpr double kFits = 0.5;  // [rad]
   const OutlierMixture mixture = outlier_mixture(angles);
   const double certain = std::log(static_cast<double>(angles.size()));
-  if (mixture.share > kMostElsewhere && mixture.sigma_rad < kFits && mixture.evidence > certain) {
+  if (mixture.share > kMaxElsewhere && mixture.sigma_rad < kFits && mixture.evidence > certain) {
     refuse(estimate,
            fmt::format("the phase does not fit one tag at rest: {:.0f} % of the reads are outliers",
                        100.0 * mixture.share));
@@ -200,8 +200,8 @@ void refuse_without_phases(const LocalizationProblem& problem, LocalizationResul
 void refuse_chance(const LocalizationProblem& problem, LocalizationResult& result) {
   for_each_position(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     const double chance =
-        least_log_chance(problem, estimate.tag, samples, estimate.candidates.front().p_WT);
-    if (chance > std::log(kMostChance)) {
+        min_log_chance(problem, estimate.tag, samples, estimate.candidates.front().p_WT);
+    if (chance > std::log(kMaxChance)) {
       refuse(estimate, "the phases carry no information: random ones fit as well");
     }
   });

@@ -53,8 +53,8 @@ PathLine path_line(const std::vector<Eigen::Vector2d>& places);
 
 /// Removes the candidates outside the area. If a single one of several is left, the tag becomes
 /// located; if none is left, it is not located. The same holds if the expected error of the best
-/// one left exceeds `most_error_m`.
-void keep_within(const TagArea& area, const PathLine& way, double most_error_m,
+/// one left exceeds `max_error_m`.
+void keep_within(const TagArea& area, const PathLine& way, double max_error_m,
                  TagEstimate& estimate);
 
 /// One phase measurement at one antenna position.

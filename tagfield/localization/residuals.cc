@@ -8,7 +8,7 @@ namespace tagfield {
 namespace {
 
 /// Lower limit of the deviation of any phase [m]: even a fit without residuals is not certain.
-constexpr double kLeastDeviation = 1e-5;
+constexpr double kMinDeviation = 1e-5;
 
 /// Mean of e_i e_{i+lag} over the pairs within a span; 0 if there are too few.
 double lagged_product(const Spans& spans, const Eigen::ArrayXd& residuals, Eigen::Index lag) {
@@ -59,7 +59,7 @@ double residual_variance(const Spans& spans, const Eigen::ArrayXd& residuals) {
   const double slow = 3.0 * (correlation_factor(spans, residuals) - 1.0);
   const double freedom = std::max({1.0, 0.2 * reads, reads - unknowns - slow});
   return std::max(residuals.square().sum() / std::min(freedom, reads),
-                  kLeastDeviation * kLeastDeviation);
+                  kMinDeviation * kMinDeviation);
 }
 
 bool tells_apart(const Spans& spans, const Eigen::ArrayXd& best, const Eigen::ArrayXd& other) {

@@ -10,7 +10,7 @@ namespace tagfield {
 namespace {
 
 /// Clocks are off by time zones or epochs.
-constexpr Duration kLeastPause = std::chrono::hours(1);
+constexpr Duration kMinPause = std::chrono::hours(1);
 constexpr std::size_t kRowsToAStray = 100;
 
 using Stamp = std::vector<Time>::const_iterator;
@@ -41,7 +41,7 @@ StampRange range_without_strays(std::vector<Time> stamps) {
     const Stamp first = early ? cut : begin;
     const Stamp last = early ? end : cut;
     const auto left_out = stamps.size() - static_cast<std::size_t>(last - first);
-    if (left_out > most || pause < std::max(kLeastPause, *(last - 1) - *first)) break;
+    if (left_out > most || pause < std::max(kMinPause, *(last - 1) - *first)) break;
     begin = first;
     end = last;
   }

@@ -74,7 +74,7 @@ PathLine path_line(const std::vector<Eigen::Vector2d>& places) {
   return line;
 }
 
-void keep_within(const TagArea& area, const PathLine& way, double most_error_m,
+void keep_within(const TagArea& area, const PathLine& way, double max_error_m,
                  TagEstimate& estimate) {
   std::vector<Candidate>& candidates = estimate.candidates;
   const std::size_t before = candidates.size();
@@ -86,7 +86,7 @@ void keep_within(const TagArea& area, const PathLine& way, double most_error_m,
                    candidates.end());
   if (candidates.size() == before) return;
   drop_repeats(candidates);
-  if (candidates.empty() || candidates.front().expected_error_m > most_error_m) {
+  if (candidates.empty() || candidates.front().expected_error_m > max_error_m) {
     candidates.clear();
     estimate.verdict = Verdict::kNotLocated;
     estimate.reason = "cannot localize: no position explains the phase where tags can be";

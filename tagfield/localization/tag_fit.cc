@@ -135,7 +135,7 @@ Eigen::ArrayXd residuals_of(const TagPhases& phases, const HeightModel& height, 
 TagFit fit_tag(const TagPhases& phases, const HeightModel& height, const PositionVector& start) {
   constexpr double kTolerance = 1e-6;  // [m]
   constexpr double kRidge = 1e-9;
-  constexpr LevenbergMarquardt kHow{.most_steps = 30, .damping = 1e-6, .least_raised = 1e-3};
+  constexpr LevenbergMarquardt kHow{.max_steps = 30, .damping = 1e-6, .min_raised = 1e-3};
   FitPoint point;
   point.fit.unknowns = start;
   point.fit.offsets = offsets_at(phases, height, start);

@@ -30,10 +30,10 @@ constexpr double kNearPlace = 0.5;
 constexpr std::size_t kEnoughReads = 300;
 
 /// Largest ratio of misfit to noise: as for the choice of a method (docs/estimators.md).
-constexpr double kMostLeft = 1.6;
+constexpr double kMaxLeft = 1.6;
 
 /// Damps the derivative for a wire seen end-on, where arg E·e is undefined.
-constexpr double kLeastField = 1e-2;
+constexpr double kMinField = 1e-2;
 
 /// Every n-th read of each span.
 TagPhases fewer(const TagPhases& phases) {
@@ -76,7 +76,7 @@ void put_turn(const PolarizedReads& reads, Eigen::Index i, const Vector3d& p_WT,
   turn_m = scale * std::arg(h);
   for (int k = 0; k < 2; ++k) {
     const Complex change = crossed_wires_on(reads.hand[at], reads.R_WA[at], u, across.col(k));
-    row[3 + k] = scale * (change * std::conj(h)).imag() / (std::norm(h) + kLeastField);
+    row[3 + k] = scale * (change * std::conj(h)).imag() / (std::norm(h) + kMinField);
   }
 }
 
@@ -136,7 +136,7 @@ void linearize(const PolarizedReads& reads, WirePoint& point) {
 }
 
 WirePoint fitted(const PolarizedReads& reads, const PositionVector& place, const Vector3d& axis_W) {
-  constexpr LevenbergMarquardt kHow{.most_steps = 20, .damping = 1e-3, .least_raised = 1e-3};
+  constexpr LevenbergMarquardt kHow{.max_steps = 20, .damping = 1e-3, .min_raised = 1e-3};
   WirePoint start;
   start.place = place;
   start.axis_W = axis_W;
@@ -246,7 +246,7 @@ bool is_clean(const PolarizedReads& reads, const WirePoint& fit) {
   if (differences.empty()) return false;
   const Eigen::ArrayXd left_rad = fit.errors * reads.phases.wavenumber;
   return left_rad.cos().mean() > kBentShare &&
-         std::sqrt(left_rad.square().mean()) < kMostLeft * noise_of_differences(differences);
+         std::sqrt(left_rad.square().mean()) < kMaxLeft * noise_of_differences(differences);
 }
 
 Eigen::Matrix2d added_by_any_wire(const PolarizedReads& reads, const Vector3d& p_WT) {

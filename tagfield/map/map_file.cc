@@ -25,10 +25,10 @@ constexpr char kUnknownGrey = static_cast<char>(205);
 constexpr double kOccupiedThreshold = 0.65;
 constexpr double kFreeThreshold = 0.196;
 
-constexpr std::uintmax_t kMostYamlBytes = 1'000'000;
-constexpr std::uintmax_t kMostImageBytes = 2'000'000'000;
-constexpr double kMostResolution = 1000.0;  // [m]
-constexpr double kMostOrigin = 1e9;         // [m]
+constexpr std::uintmax_t kMaxYamlBytes = 1'000'000;
+constexpr std::uintmax_t kMaxImageBytes = 2'000'000'000;
+constexpr double kMaxResolution = 1000.0;  // [m]
+constexpr double kMaxOrigin = 1e9;         // [m]
 
 enum class Mode { kTrinary, kScale, kRaw };
 
@@ -77,7 +77,7 @@ class MapYaml {
     if (!node.IsSequence() || node.size() != 3) refuse("origin", "must be [x, y, yaw]");
     std::array<double, 3> numbers{};
     for (std::size_t i = 0; i < 3; ++i) {
-      numbers.at(i) = number("origin", node[i], -kMostOrigin, kMostOrigin);
+      numbers.at(i) = number("origin", node[i], -kMaxOrigin, kMaxOrigin);
     }
     return numbers;
   }
@@ -152,7 +152,7 @@ void read_thresholds(const MapYaml& yaml, MapFrame& frame) {
 MapFrame frame_from(const MapYaml& yaml) {
   MapFrame frame;
   frame.image = yaml.text("image");
-  frame.resolution_m = yaml.number("resolution", 0.0, kMostResolution);
+  frame.resolution_m = yaml.number("resolution", 0.0, kMaxResolution);
   if (frame.resolution_m < 1e-6) yaml.refuse("resolution", "must be greater than 0 [m]");
   const auto [x, y, yaw] = yaml.origin();
   if (yaw != 0.0) yaml.refuse("origin", fmt::format("has a yaw of {}, but must have 0", yaw));
@@ -222,7 +222,7 @@ std::string map_to_yaml(const OccupancyGrid& grid, const std::string& image) {
 }
 
 OccupancyGrid read_map(const std::string& yaml_path, Diagnostics& diagnostics) {
-  const std::string text = read_text_file(yaml_path, kMostYamlBytes);
+  const std::string text = read_text_file(yaml_path, kMaxYamlBytes);
   if (text.empty()) fail({yaml_path, 0}, "the file is empty");
   const MapYaml yaml(text, yaml_path);
   yaml.warn_of_strangers(
@@ -230,7 +230,7 @@ OccupancyGrid read_map(const std::string& yaml_path, Diagnostics& diagnostics) {
       diagnostics);
   const MapFrame frame = frame_from(yaml);
   const auto image_path = (std::filesystem::path(yaml_path).parent_path() / frame.image).string();
-  return grid_from(read_pgm(read_text_file(image_path, kMostImageBytes), image_path), frame);
+  return grid_from(read_pgm(read_text_file(image_path, kMaxImageBytes), image_path), frame);
 }
 
 }  // namespace tagfield

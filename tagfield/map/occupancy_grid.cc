@@ -78,7 +78,7 @@ class Envelope {
 }  // namespace
 
 std::vector<float> distance_field(const OccupancyGrid& grid, const std::vector<bool>& is_source,
-                                  double most_m) {
+                                  double max_m) {
   Squares squares(is_source.size(), kNone);
   for (int x = 0; x < grid.width; ++x) column_distances(grid, is_source, x, squares);
   Envelope envelope(static_cast<std::size_t>(std::max(grid.width, 0)));
@@ -86,7 +86,7 @@ std::vector<float> distance_field(const OccupancyGrid& grid, const std::vector<b
   std::vector<float> distances(squares.size());
   std::transform(squares.begin(), squares.end(), distances.begin(), [&](std::int64_t square) {
     const double distance = grid.resolution_m * std::sqrt(static_cast<double>(square));
-    return static_cast<float>(square < kNone ? std::min(distance, most_m) : most_m);
+    return static_cast<float>(square < kNone ? std::min(distance, max_m) : max_m);
   });
   return distances;
 }

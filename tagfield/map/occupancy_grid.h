@@ -56,9 +56,9 @@ inline bool is_free(std::int8_t cell) { return cell >= 0 && cell < kFreeBelow; }
 
 /// Distance from each cell's centre to the nearest centre of a cell for which `is_source` [m];
 /// exact (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled Functions, Theory of
-/// Computing 8, 2012, here in integers). Clamped to `most_m`, which also applies if there is no
+/// Computing 8, 2012, here in integers). Clamped to `max_m`, which also applies if there is no
 /// source. `is_source` and the result have the order and size of the grid's cells.
 std::vector<float> distance_field(const OccupancyGrid& grid, const std::vector<bool>& is_source,
-                                  double most_m);
+                                  double max_m);
 
 }  // namespace tagfield

@@ -221,10 +221,10 @@ std::string top_view_to_json(const std::vector<Silhouette>& silhouettes) {
 }
 
 std::vector<Silhouette> top_view_from_json(const std::string& text) {
-  constexpr int kMostLevels = 20;
+  constexpr int kMaxLevels = 20;
   try {
     const nlohmann::json list = nlohmann::json::parse(text, [](int levels, auto, const auto&) {
-      if (levels > kMostLevels) throw Error("top view is not the JSON expected: too deep a nest");
+      if (levels > kMaxLevels) throw Error("top view is not the JSON expected: too deep a nest");
       return true;
     });
     if (!list.is_array()) throw Error("top view is not the JSON expected: no list");

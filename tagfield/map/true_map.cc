@@ -19,7 +19,7 @@ constexpr std::int8_t kFree = 0;
 constexpr std::int8_t kOccupied = 100;
 constexpr std::int8_t kUnknown = -1;
 constexpr double kMarginM = 1.0;
-constexpr double kMostCells = 4e8;
+constexpr double kMaxCells = 4e8;
 /// Share of a cell by which surfaces are shifted, so that one on a border between cells falls into
 /// the greater one, whatever its rounding.
 constexpr double kNudge = 1e-6;
@@ -47,7 +47,7 @@ OccupancyGrid grid_around(const std::vector<Segment>& segments, const Eigen::Vec
   const Eigen::Array2d low = ((box.min().array() - margin) / resolution_m).floor();
   const Eigen::Array2d high = ((box.max().array() + margin) / resolution_m).ceil();
   const Eigen::Array2d cells = high - low;
-  require(cells.prod() <= kMostCells, "expected at most 4e8 cells, wanted", cells.prod());
+  require(cells.prod() <= kMaxCells, "expected at most 4e8 cells, wanted", cells.prod());
   OccupancyGrid grid;
   grid.resolution_m = resolution_m;
   grid.width = static_cast<int>(cells.x());

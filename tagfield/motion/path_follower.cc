@@ -75,16 +75,15 @@ BodyVelocity PathFollower::next(const PlanarPose& pose, double seconds) {
   const Eigen::Vector2d target = point_at(progress_ + style_.look_ahead_m);
   const Eigen::Vector2d to_target = target - position;
   const double bearing = wrap_to_pi(arc_tangent(to_target.y(), to_target.x()) - pose.yaw);
-  const double most_turn = style_.max_turn_rad_s;
+  const double max_turn = style_.max_turn_rad_s;
   if (std::abs(bearing) > kBeginTurnInPlace) turning_in_place_ = true;
   if (turning_in_place_ && std::abs(bearing) < kEndTurnInPlace) turning_in_place_ = false;
   if (turning_in_place_) {
-    return {0.0, std::clamp(bearing / seconds, -most_turn, most_turn)};
+    return {0.0, std::clamp(bearing / seconds, -max_turn, max_turn)};
   }
   // The arc to the target, tangent to the heading, has the curvature 2 sin(bearing)/distance.
   const double curvature = 2.0 * sine(bearing) / std::max(to_target.norm(), 1e-9);
-  const double forward =
-      std::min(style_.speed_m_s, most_turn / std::max(std::abs(curvature), 1e-9));
+  const double forward = std::min(style_.speed_m_s, max_turn / std::max(std::abs(curvature), 1e-9));
   return {forward, forward * curvature};
 }
 

@@ -14,8 +14,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeastRate = 1e-6;  // [Hz]
-constexpr double kMostRate = 1e6;    // [Hz]
+constexpr double kMinRate = 1e-6;  // [Hz]
+constexpr double kMaxRate = 1e6;   // [Hz]
 
 /// Looks up parameters and records the known names.
 class Reader {
@@ -35,7 +35,7 @@ class Reader {
     const RawParameter* const given = find(key);
     if (given == nullptr) return;
     const double number = number_in(*given);
-    if (!(number >= kLeastRate && number <= kMostRate)) wrong(*given, "a rate [Hz], 1e-6 to 1e6");
+    if (!(number >= kMinRate && number <= kMaxRate)) wrong(*given, "a rate [Hz], 1e-6 to 1e6");
     value = number;
   }
 

@@ -6,9 +6,9 @@
 namespace tagfield {
 namespace {
 
-double limited(double wanted, double present, double most, double most_change) {
+double limited(double wanted, double present, double most, double max_change) {
   const double possible = std::clamp(wanted, -most, most);
-  return std::clamp(possible, present - most_change, present + most_change);
+  return std::clamp(possible, present - max_change, present + max_change);
 }
 
 }  // namespace

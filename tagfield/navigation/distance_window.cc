@@ -10,7 +10,7 @@ namespace tagfield {
 
 DistanceWindow::DistanceWindow(const OccupancyGrid& map,
                                const std::vector<Eigen::Vector2d>& points_M,
-                               const Eigen::Vector2d& centre_M, double half_m, double most_m) {
+                               const Eigen::Vector2d& centre_M, double half_m, double max_m) {
   const Eigen::Vector2i low = map.cell_of(centre_M - Eigen::Vector2d(half_m, half_m));
   window_.resolution_m = map.resolution_m;
   window_.width = static_cast<int>(std::ceil(2.0 * half_m / map.resolution_m)) + 1;
@@ -27,7 +27,7 @@ DistanceWindow::DistanceWindow(const OccupancyGrid& map,
     const Eigen::Vector2i cell = window_.cell_of(point);
     if (window_.contains(cell.x(), cell.y())) sources[window_.index(cell.x(), cell.y())] = 1;
   }
-  distances_ = near_distances(sources, window_.width, cells_for(most_m, window_.resolution_m));
+  distances_ = near_distances(sources, window_.width, cells_for(max_m, window_.resolution_m));
 }
 
 double DistanceWindow::at(const Eigen::Vector2d& p_M) const {

@@ -19,7 +19,7 @@ constexpr double kOnMapPerMetre = 0.01;
 /// Maximum age of a usable scan, or time ahead of now [s].
 constexpr double kFresh = 0.5;
 /// Least fraction of a scan's beams that must be valid.
-constexpr double kLeastValid = 0.1;
+constexpr double kMinValid = 0.1;
 constexpr double kTrailSpacing = 0.1;
 constexpr std::size_t kTrailPoints = 60;
 /// Added to the robot's radius, within which the floor is free where it has been: its trail has
@@ -43,7 +43,7 @@ void DriveSenses::set_map(const OccupancyGrid& map) {
   map_ = map;
   std::vector<bool> is_source(cells);
   std::transform(map.cells.begin(), map.cells.end(), is_source.begin(), is_occupied);
-  to_occupied_ = distance_field(map, is_source, kMostToMap);
+  to_occupied_ = distance_field(map, is_source, kMaxToMap);
 }
 
 void DriveSenses::forget() {
@@ -56,7 +56,7 @@ void DriveSenses::forget() {
 
 double DriveSenses::distance_to_map(const Eigen::Vector2d& p_M) const {
   const Eigen::Vector2i cell = map_.cell_of(p_M);
-  if (!map_.contains(cell.x(), cell.y())) return kMostToMap;
+  if (!map_.contains(cell.x(), cell.y())) return kMaxToMap;
   return static_cast<double>(to_occupied_[map_.index(cell.x(), cell.y())]);
 }
 
@@ -98,7 +98,7 @@ std::string DriveSenses::blindness(Time now) const {
     return fmt::format("the last laser scan is {:.1f} s {}", std::abs(age_s),
                        age_s > 0.0 ? "old" : "in the future");
   }
-  return valid_share_ < kLeastValid ? "the laser's beams are invalid" : "";
+  return valid_share_ < kMinValid ? "the laser's beams are invalid" : "";
 }
 
 std::vector<Eigen::Vector2d> DriveSenses::points_around(const Eigen::Vector2d& p_M,
@@ -108,20 +108,20 @@ std::vector<Eigen::Vector2d> DriveSenses::points_around(const Eigen::Vector2d& p
   return points;
 }
 
-DistanceWindow DriveSenses::window(const PlanarPose& pose_M, double half_m, double most_m) const {
+DistanceWindow DriveSenses::window(const PlanarPose& pose_M, double half_m, double max_m) const {
   const Eigen::Vector2d here = position_of(pose_M);
-  return {map_, points_around(here, half_m), here, half_m, most_m};
+  return {map_, points_around(here, half_m), here, half_m, max_m};
 }
 
 /// Skips the nearest few points: of many noisy ones, they lie too near.
 double DriveSenses::clear_at(const Eigen::Vector2d& p_M) const {
   constexpr std::size_t kPassedOver = 2;
-  std::vector<double> distances(kPassedOver + 1, kMostToMap);
-  for (const Eigen::Vector2d& point : points_around(p_M, kMostToMap)) {
+  std::vector<double> distances(kPassedOver + 1, kMaxToMap);
+  for (const Eigen::Vector2d& point : points_around(p_M, kMaxToMap)) {
     distances.push_back((point - p_M).norm());
   }
   std::nth_element(distances.begin(), distances.begin() + kPassedOver, distances.end());
-  return std::min(distances[kPassedOver], distance_to_occupied(map_, p_M, kMostToMap));
+  return std::min(distances[kPassedOver], distance_to_occupied(map_, p_M, kMaxToMap));
 }
 
 Surroundings DriveSenses::surroundings(const DistanceWindow& window, const PlanarPose& pose_M,

@@ -35,16 +35,16 @@ class DriveSenses {
   /// Why there is no usable scan at `now`, in words; "" if there is one.
   [[nodiscard]] std::string blindness(Time now) const;
   /// The static obstacles around `pose_M`.
-  [[nodiscard]] DistanceWindow window(const PlanarPose& pose_M, double half_m, double most_m) const;
+  [[nodiscard]] DistanceWindow window(const PlanarPose& pose_M, double half_m, double max_m) const;
   /// What rollouts from `pose_M` must keep clear of; refers to `window` and to this.
   [[nodiscard]] Surroundings surroundings(const DistanceWindow& window, const PlanarPose& pose_M,
                                           Time now) const;
   /// Points of static obstacles that are not on the map.
   [[nodiscard]] std::vector<Eigen::Vector2d> not_on_map() const { return memory_.not_on_map(); }
-  /// Distance from `p_M` to the centre of the nearest occupied cell, at most kMostToMap [m].
+  /// Distance from `p_M` to the centre of the nearest occupied cell, at most kMaxToMap [m].
   [[nodiscard]] double distance_to_map(const Eigen::Vector2d& p_M) const;
 
-  static constexpr double kMostToMap = 1.0;
+  static constexpr double kMaxToMap = 1.0;
 
  private:
   [[nodiscard]] bool is_known_free(const Eigen::Vector2d& p_M) const;

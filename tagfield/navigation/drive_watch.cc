@@ -6,7 +6,7 @@
 namespace tagfield {
 
 void DriveWatch::begin(double remaining_m, Time now) {
-  least_m_ = remaining_m;
+  min_m_ = remaining_m;
   counted_from_m_ = remaining_m;
   detours_ = 0;
   nearer_ = now;
@@ -14,18 +14,18 @@ void DriveWatch::begin(double remaining_m, Time now) {
 }
 
 void DriveWatch::detour(double remaining_m, Time now) {
-  const bool is_longer = remaining_m > least_m_ + kNearer;
-  least_m_ = remaining_m;
+  const bool is_longer = remaining_m > min_m_ + kNearer;
+  min_m_ = remaining_m;
   counted_from_m_ = std::max(counted_from_m_, remaining_m);
   tried_ = now;
-  if (!is_longer || detours_ >= kMostDetours) return;
+  if (!is_longer || detours_ >= kMaxDetours) return;
   ++detours_;
   nearer_ = now;
 }
 
 void DriveWatch::update(double remaining_m, Time now) {
-  if (remaining_m > least_m_ - kNearer) return;
-  least_m_ = remaining_m;
+  if (remaining_m > min_m_ - kNearer) return;
+  min_m_ = remaining_m;
   nearer_ = now;
   if (remaining_m > counted_from_m_ - kCounts) return;
   counted_from_m_ = remaining_m;

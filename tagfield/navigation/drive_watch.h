@@ -13,7 +13,7 @@ class DriveWatch {
   /// Begins a new drive, or a new path of the same drive, at `now`.
   void begin(double remaining_m, Time now);
   /// A longer path around an obstacle was found. Since it may take a while, the timers restart, but
-  /// at most kMostDetours times until the robot has come nearer by kCounts.
+  /// at most kMaxDetours times until the robot has come nearer by kCounts.
   void detour(double remaining_m, Time now);
   void update(double remaining_m, Time now);
   /// A recovery was tried until now: stuck_s() restarts.
@@ -28,10 +28,10 @@ class DriveWatch {
 
   static constexpr double kNearer = 0.05;  ///< Anything less is not progress [m].
   static constexpr double kCounts = 2.0;   ///< [m]
-  static constexpr int kMostDetours = 5;
+  static constexpr int kMaxDetours = 5;
 
  private:
-  double least_m_ = 0.0;
+  double min_m_ = 0.0;
   double counted_from_m_ = 0.0;
   int detours_ = 0;
   Time nearer_;

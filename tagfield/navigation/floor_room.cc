@@ -42,10 +42,10 @@ std::vector<float> rooms(const OccupancyGrid& grid, const RobotRoom& size) {
   std::vector<std::uint8_t> sources(grid.cells.size());
   std::transform(grid.cells.begin(), grid.cells.end(), sources.begin(),
                  [](std::int8_t cell) { return std::uint8_t{cell == kOccupiedCell}; });
-  const double most_m = size.least_m() + size.clearance_m;
+  const double max_m = size.min_m() + size.clearance_m;
   std::vector<float> room =
-      near_distances(sources, grid.width, cells_for(most_m, grid.resolution_m));
-  const auto least = static_cast<float>(size.least_m());
+      near_distances(sources, grid.width, cells_for(max_m, grid.resolution_m));
+  const auto least = static_cast<float>(size.min_m());
   for (float& distance : room) {
     distance = distance * static_cast<float>(grid.resolution_m) - least;
   }
@@ -57,17 +57,17 @@ bool borders_on_free(const OccupancyGrid& grid, int x, int y) {
          grid.at(x, y - 1) == kFreeCell || grid.at(x, y + 1) == kFreeCell;
 }
 
-/// Lowers the distances next to unknown space, so that they are below 0 nearer than `least_m` to
+/// Lowers the distances next to unknown space, so that they are below 0 nearer than `min_m` to
 /// it. Starts from the cells at its edge, as these are few.
-void keep_from_unknown(const OccupancyGrid& grid, double least_m, std::vector<float>& room) {
+void keep_from_unknown(const OccupancyGrid& grid, double min_m, std::vector<float>& room) {
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
       if (grid.cells[grid.index(x, y)] != kUnknownCell || !borders_on_free(grid, x, y)) continue;
       const Eigen::Vector2d centre = grid.centre_of(x, y);
-      around(grid, centre, least_m, [&](int i, int j) {
+      around(grid, centre, min_m, [&](int i, int j) {
         const double distance = (grid.centre_of(i, j) - centre).norm();
         float& here = room[grid.index(i, j)];
-        here = std::min(here, static_cast<float>(distance - least_m));
+        here = std::min(here, static_cast<float>(distance - min_m));
       });
     }
   }
@@ -140,14 +140,14 @@ FloorRoom floor_room(const OccupancyGrid& map, const std::vector<Eigen::Vector2d
                  [&](float room_m, std::int8_t cell) {
                    return cell == kFreeCell ? weight_of(room_m, size.clearance_m) : std::uint8_t{0};
                  });
-  if (robot) let_out(floor, room, *robot, 2.0 * size.least_m());
+  if (robot) let_out(floor, room, *robot, 2.0 * size.min_m());
   return floor;
 }
 
-double distance_to_occupied(const OccupancyGrid& map, const Eigen::Vector2d& p, double most_m) {
-  double nearest = most_m;
+double distance_to_occupied(const OccupancyGrid& map, const Eigen::Vector2d& p, double max_m) {
+  double nearest = max_m;
   const double half = 0.5 * map.resolution_m;
-  around(map, p, most_m + map.resolution_m, [&](int x, int y) {
+  around(map, p, max_m + map.resolution_m, [&](int x, int y) {
     if (!is_occupied(map.cells[map.index(x, y)])) return;
     const Eigen::Vector2d away =
         ((map.centre_of(x, y) - p).cwiseAbs() - Eigen::Vector2d(half, half)).cwiseMax(0.0);

@@ -19,7 +19,7 @@ struct RobotRoom {
   double clearance_m = 0.3;
 
   /// Least distance of the robot's centre from an obstacle [m].
-  [[nodiscard]] double least_m() const { return radius_m + margin_m; }
+  [[nodiscard]] double min_m() const { return radius_m + margin_m; }
 };
 
 /// A map prepared for planning.
@@ -52,8 +52,8 @@ FloorRoom floor_room(const OccupancyGrid& map, const std::vector<Eigen::Vector2d
 /// there, but it should not brush past what was never seen.
 inline constexpr double kUnknownShare = 0.7;
 
-/// Distance from `p` to the nearest edge of an occupied cell [m]: 0 inside one, at most `most_m`.
-double distance_to_occupied(const OccupancyGrid& map, const Eigen::Vector2d& p, double most_m);
+/// Distance from `p` to the nearest edge of an occupied cell [m]: 0 inside one, at most `max_m`.
+double distance_to_occupied(const OccupancyGrid& map, const Eigen::Vector2d& p, double max_m);
 
 /// `map` with cells 0, 100 and -1 only, in which isolated unknown cells and unknown lines one cell
 /// wide between free cells are free: far from the laser, its beams miss some cells.

@@ -22,11 +22,11 @@ constexpr double kSameDirection = 0.5;
 /// Metres of path that a metre of frontier is worth, and the size above which more is worth
 /// nothing.
 constexpr double kWayForSize = 1.0;
-constexpr double kMostSize = 5.0;
+constexpr double kMaxSize = 5.0;
 /// The robot need not come nearer to a frontier than this to look into it.
 constexpr double kNearEnough = 0.5;
 /// Least sine of the viewing angle; smaller ones count as this.
-constexpr double kLeastSlant = 0.05;
+constexpr double kMinSlant = 0.05;
 constexpr std::size_t kCellsBetweenTries = 10;
 
 using Cells = std::vector<Eigen::Vector2i>;
@@ -105,7 +105,7 @@ struct Reach {
   const OccupancyGrid& seen;
   const FloorRoom& floor;
   const Spread& ways;  ///< From the robot.
-  double least_m;      ///< From the robot's centre to obstacles.
+  double min_m;        ///< From the robot's centre to obstacles.
   double sight_m;
 };
 
@@ -167,7 +167,7 @@ std::vector<Place> places_to_see(const Reach& reach, const Eigen::Vector2i& targ
     const std::size_t cell = grid.index(x, y);
     if (reach.ways.costs[cell] < 0) return;
     const Eigen::Vector2d way = target_M - grid.centre_of(x, y);
-    const double slant = std::max(way.dot(normal) / (way.norm() + 1e-9), kLeastSlant);
+    const double slant = std::max(way.dot(normal) / (way.norm() + 1e-9), kMinSlant);
     places.push_back({slant / std::max(way.norm(), kNearEnough), cell});
   });
   std::make_heap(places.begin(), places.end(), is_worse);
@@ -189,7 +189,7 @@ std::optional<Eigen::Vector2i> standing_place(const Reach& reach, const Eigen::V
     const Eigen::Vector2i cell(at % grid.width, at / grid.width);
     const Eigen::Vector2d place = grid.centre_of(cell.x(), cell.y());
     // A goal must meet this limit exactly, not just to within a cell.
-    if (distance_to_occupied(reach.floor.grid, place, reach.least_m) < reach.least_m) continue;
+    if (distance_to_occupied(reach.floor.grid, place, reach.min_m) < reach.min_m) continue;
     if (can_see_unknown(grid, place, unknown_M)) return cell;
   }
   return std::nullopt;
@@ -248,7 +248,7 @@ OccupancyGrid with_ground_of(OccupancyGrid seen, const OccupancyGrid& floor) {
 }
 
 double dearness(const Frontier& frontier) {
-  return frontier.way_m - kWayForSize * std::min(frontier.size_m, kMostSize);
+  return frontier.way_m - kWayForSize * std::min(frontier.size_m, kMaxSize);
 }
 
 }  // namespace
@@ -280,7 +280,7 @@ std::vector<Frontier> frontiers(const OccupancyGrid& map, const OccupancyGrid& d
   for (const Cells& cells : connected_frontiers(seen)) {
     if (static_cast<double>(cells.size()) * map.resolution_m < options.min_size_m) continue;
     const std::optional<Frontier> frontier =
-        frontier_of({seen, floor, ways, size.least_m(), options.sight_m}, cells, looks);
+        frontier_of({seen, floor, ways, size.min_m(), options.sight_m}, cells, looks);
     if (frontier) found.push_back(*frontier);
   }
   std::stable_sort(found.begin(), found.end(),

@@ -62,7 +62,7 @@ class Waiting {
 static_assert(17 * (FloorRoom::kOut + FloorRoom::kFar) < 1024);
 
 /// Lower bound on the cost of any path between two cells.
-std::int32_t least_cost(int x, int y, const Eigen::Vector2i& to) {
+std::int32_t min_cost(int x, int y, const Eigen::Vector2i& to) {
   const int along = std::abs(x - to.x());
   const int across = std::abs(y - to.y());
   return FloorRoom::kFar * (12 * std::max(along, across) + 5 * std::min(along, across));
@@ -118,7 +118,7 @@ Spread spread(const FloorRoom& floor, const Eigen::Vector2i& from,
   if (floor.weight(from.x(), from.y()) == 0) return result;
   Waiting waiting;
   // With a target this is A*, otherwise Dijkstra's algorithm.
-  const auto ahead = [&](int x, int y) { return until ? least_cost(x, y, *until) : 0; };
+  const auto ahead = [&](int x, int y) { return until ? min_cost(x, y, *until) : 0; };
   result.costs[grid.index(from.x(), from.y())] = 0;
   waiting.add({0, from.x(), from.y()}, ahead(from.x(), from.y()));
   while (!waiting.empty()) {
@@ -185,8 +185,8 @@ std::string fault_of(const OccupancyGrid& map, const PlanarPose& pose_M, const P
   if (!map.contains(cell.x(), cell.y())) return goal + ": off the map";
   if (is_occupied(map.at(cell.x(), cell.y()))) return goal + ": on an obstacle";
   if (without_specks(map).at(cell.x(), cell.y()) != 0) return goal + ": on unknown ground";
-  if (distance_to_occupied(map, position_of(goal_M), size.least_m()) < size.least_m()) {
-    return fmt::format("{}: nearer than {:.2f} m to an obstacle", goal, size.least_m());
+  if (distance_to_occupied(map, position_of(goal_M), size.min_m()) < size.min_m()) {
+    return fmt::format("{}: nearer than {:.2f} m to an obstacle", goal, size.min_m());
   }
   const std::string robot = at("the robot at", pose_M);
   const Eigen::Vector2i here = map.cell_of(position_of(pose_M));

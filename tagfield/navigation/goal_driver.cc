@@ -183,7 +183,7 @@ BodyVelocity GoalDriver::Impl::drive(const PlanarPose& pose_M, const BodyVelocit
     return {};
   }
   const DistanceWindow window =
-      senses.window(pose_M, window_half(local), local.size.least_m() + local.size.clearance_m);
+      senses.window(pose_M, window_half(local), local.size.min_m() + local.size.clearance_m);
   last = decide(pose_M, velocity, aim, senses.surroundings(window, pose_M, now), last, local);
   look_after_progress(pose_M, now);
   return last->command;

@@ -17,8 +17,8 @@ namespace {
 
 /// Least standard deviations of a step's prior: wheels may be wrong even when they report no
 /// motion.
-constexpr double kLeastSigma_m = 0.002;
-constexpr double kLeastSigma_rad = 0.001;
+constexpr double kMinSigma_m = 0.002;
+constexpr double kMinSigma_rad = 0.001;
 
 /// Inverse covariance of the odometry's step in the map's axes.
 Eigen::Matrix3d prior_information(const PlanarPose& from_M, const PlanarPose& increment,
@@ -26,9 +26,8 @@ Eigen::Matrix3d prior_information(const PlanarPose& from_M, const PlanarPose& in
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R.topLeftCorner<2, 2>() = rotation_in_plane(from_M.yaw);
   Eigen::Matrix3d covariance = R * increment_covariance(increment, noise) * R.transpose();
-  covariance.diagonal() +=
-      Eigen::Vector3d(kLeastSigma_m * kLeastSigma_m, kLeastSigma_m * kLeastSigma_m,
-                      kLeastSigma_rad * kLeastSigma_rad);
+  covariance.diagonal() += Eigen::Vector3d(kMinSigma_m * kMinSigma_m, kMinSigma_m * kMinSigma_m,
+                                           kMinSigma_rad * kMinSigma_rad);
   return covariance.inverse();
 }
 
@@ -42,7 +41,7 @@ MatchOptions polishing(MatchOptions options) {
   options.search_cells = 2;
   options.outlier_m = 0.03;
   options.trust = 1.0;
-  options.most_ends = MatchOptions{}.most_ends;
+  options.max_ends = MatchOptions{}.max_ends;
   return options;
 }
 
@@ -95,7 +94,7 @@ bool GridMapper::update(const LaserScan& scan, const PlanarPose& odometry) {
   const bool enough = updates_ >= static_cast<std::uint64_t>(settings_.first_scans);
   // Motion between the first scans would be lost, since they are entered at the starting pose.
   if (!moved && (enough || !stands(increment))) return false;
-  const ScanPoints points = scan_points(scan, X_RL_, settings_.most_clear_m);
+  const ScanPoints points = scan_points(scan, X_RL_, settings_.max_clear_m);
   if (points.ends_R.empty()) return false;
   const std::vector<Eigen::Vector2d> to_match = thinned(points.ends_R, settings_.point_spacing_m);
   parallel_for(particles_.size(), settings_.threads,

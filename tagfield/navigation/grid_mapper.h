@@ -20,7 +20,7 @@ namespace tagfield {
 /// weigh alike in a surface.
 inline MatchOptions growing_map() {
   MatchOptions options;
-  options.most_ends = 20.0;
+  options.max_ends = 20.0;
   return options;
 }
 
@@ -30,8 +30,8 @@ struct MapperSettings {
   OdometryNoise odometry;           ///< Assumed error of the wheel odometry.
   double update_distance_m = 0.15;  ///< A scan is entered after driving this far
   double update_turn_rad = 0.1;     ///< or turning by this much.
-  int first_scans = 15;  ///< Entered before the robot moves, so that the map starts out sharp.
-  double most_clear_m = 15.0;     ///< How far a beam without a hit clears the map.
+  int first_scans = 15;       ///< Entered before the robot moves, so that the map starts out sharp.
+  double max_clear_m = 15.0;  ///< How far a beam without a hit clears the map.
   double point_spacing_m = 0.06;  ///< Between the points to match.
   MatchOptions match = growing_map();
   int threads = 1;  ///< The map does not depend on it.

@@ -15,14 +15,14 @@ constexpr float kHit = 0.9F;
 constexpr float kNotOnMap = 0.1F / 3.0F;  // [1/m]
 constexpr double kReach = 4.0;            // [σ]
 
-/// Squared distances from the nearest occupied cell, capped at that of `most_m` [cells²].
-std::vector<long> squared_distances(const OccupancyGrid& map, double most_m) {
+/// Squared distances from the nearest occupied cell, capped at that of `max_m` [cells²].
+std::vector<long> squared_distances(const OccupancyGrid& map, double max_m) {
   std::vector<bool> occupied;
   occupied.reserve(map.cells.size());
   for (const std::int8_t cell : map.cells) occupied.push_back(is_occupied(cell));
   std::vector<long> squares;
   squares.reserve(occupied.size());
-  for (const float distance : distance_field(map, occupied, most_m)) {
+  for (const float distance : distance_field(map, occupied, max_m)) {
     const double cells = static_cast<double>(distance) / map.resolution_m;
     squares.push_back(std::lrint(cells * cells));
   }

@@ -77,7 +77,7 @@ class Chooser {
 
 double Chooser::badness(const Outcome& result) const {
   const double bare = size_.radius_m + kBareMargin;
-  double needed = std::max(bare, size_.least_m() - kNoise);
+  double needed = std::max(bare, size_.min_m() - kNoise);
   double bad = result.backs_blindly ? 1.0 : 0.0;
   // A robot nearer than the margin may go on, but hardly any nearer.
   if (clear_now_m_ < needed) needed = std::max(bare, clear_now_m_ - kBareMargin);
@@ -94,7 +94,7 @@ double Chooser::cost(const Manoeuvre& manoeuvre, const Outcome& result) const {
   const PlanarPose then = rollouts_.after(manoeuvre, kScoredAfter);
   const double off_m = (position_of(then) - position_of(reference_)).norm();
   const double clearance = std::max(size_.clearance_m, 1e-3);
-  const double lack = std::max(0.0, 1.0 - (result.clear_m - size_.least_m()) / clearance);
+  const double lack = std::max(0.0, 1.0 - (result.clear_m - size_.min_m()) / clearance);
   const double gap_lack = std::max(0.0, 1.0 - result.gap_m / kWantedGap);
   return kPerMetre * off_m + kPerRadian * std::abs(then.yaw - reference_.yaw) +
          kForClearance * square(lack) + kForGap * square(gap_lack);
@@ -190,7 +190,7 @@ Candidate best_nominal(Chooser chooser, const BodyVelocity& wanted, const BodyVe
 }  // namespace
 
 double window_half(const LocalSettings& settings) {
-  return (kFirstHold + kSecondHold) * settings.limits.speed_m_s + settings.size.least_m() +
+  return (kFirstHold + kSecondHold) * settings.limits.speed_m_s + settings.size.min_m() +
          settings.size.clearance_m;
 }
 

@@ -63,8 +63,8 @@ constexpr double kSame_m = 0.05;
 constexpr double kSame_rad = 0.03;
 /// An opinion that fits worse than this after that is not examined more closely.
 constexpr double kHopelessFit = 0.4;
-constexpr double kLeastSpread_m = 0.002;
-constexpr double kLeastSpread_rad = 0.001;
+constexpr double kMinSpread_m = 0.002;
+constexpr double kMinSpread_rad = 0.001;
 /// A point this near to a wall lies on it.
 constexpr double kOnWall_m = 0.1;
 /// A beam crosses a wall if the wall is at least this far before its end.
@@ -97,12 +97,12 @@ double squared(double x) { return x * x; }
 Eigen::Matrix3d diagonal_covariance(double sigma_m, double sigma_rad) {
   return Eigen::Vector3d(squared(sigma_m), squared(sigma_m), squared(sigma_rad)).asDiagonal();
 }
-Eigen::Matrix3d least_covariance() { return diagonal_covariance(kLeastSpread_m, kLeastSpread_rad); }
+Eigen::Matrix3d least_covariance() { return diagonal_covariance(kMinSpread_m, kMinSpread_rad); }
 Eigen::Matrix3d found_covariance() { return diagonal_covariance(kFoundSigma_m, kFoundSigma_rad); }
 
-bool are_within(const PlanarPose& a, const PlanarPose& b, double most_m, double most_rad) {
-  return (position_of(a) - position_of(b)).norm() < most_m &&
-         std::abs(wrap_to_pi(a.yaw - b.yaw)) < most_rad;
+bool are_within(const PlanarPose& a, const PlanarPose& b, double max_m, double max_rad) {
+  return (position_of(a) - position_of(b)).norm() < max_m &&
+         std::abs(wrap_to_pi(a.yaw - b.yaw)) < max_rad;
 }
 
 bool are_near(const PlanarPose& a, const PlanarPose& b) {
@@ -182,8 +182,8 @@ void MonteCarloLocalizer::Impl::search() {
 
 void MonteCarloLocalizer::Impl::filter_scan(const LaserScan& scan, const PlanarPose& increment) {
   const bool tracking = state == Localization::kTracking;
-  const KldOptions kld{tracking ? settings.least_particles : settings.least_searching,
-                       settings.most_particles, settings.bin_m, settings.bin_rad};
+  const KldOptions kld{tracking ? settings.min_particles : settings.min_searching,
+                       settings.max_particles, settings.bin_m, settings.bin_rad};
   std::mt19937 generator = random();
   particles = drawn_and_moved(
       particles, {increment, increment_covariance(increment, settings.odometry)}, kld, generator);
@@ -399,7 +399,7 @@ void MonteCarloLocalizer::Impl::look_around(const std::vector<Eigen::Vector2d>& 
   good_length_m = good_scans > 1 ? good_length_m + way_m : 0.0;
   if (good_scans >= kGoodScans && good_length_m >= kGoodLength_m) {
     particles.clear();
-    scatter({estimate.pose_M, found_covariance()}, 2 * settings.least_particles, 0.0);
+    scatter({estimate.pose_M, found_covariance()}, 2 * settings.min_particles, 0.0);
     use(Localization::kTracking);
   } else if (++searching_scans >= kPatience) {
     search();
@@ -468,7 +468,7 @@ void MonteCarloLocalizer::start_at(const PoseEstimate& start) {
     throw Error("the starting pose and its covariance must be finite");
   }
   impl.particles.clear();
-  impl.scatter(start, 2 * impl.settings.least_particles, 0.0);
+  impl.scatter(start, 2 * impl.settings.min_particles, 0.0);
   impl.estimate = start;
   impl.has_odometry = false;
   impl.use(Localization::kTracking);

@@ -28,14 +28,14 @@ struct LocalizerSettings {
   /// Exponent of the scan's likelihood: 1 would treat all beams as independent and lock onto wrong
   /// poses.
   double trust = 0.15;
-  int least_particles = 200;
-  int most_particles = 20000;
+  int min_particles = 200;
+  int max_particles = 20000;
   // While it searches, particles are sparse: their weights must fall off slowly from one to the
   // next.
   double search_sigma_m = 0.3;
   double search_trust = 0.01;
   int first_particles = 20000;  ///< Over all free space.
-  int least_searching = 6000;
+  int min_searching = 6000;
   double bin_m = 0.1;  ///< Of KLD sampling (Fox, 2003).
   double bin_rad = 0.087;
   double point_spacing_m = 0.05;  ///< Between the points of the final match.

@@ -11,12 +11,12 @@
 namespace tagfield {
 namespace {
 
-constexpr double kMostGap = 0.25;    // Between neighbours of a group [m].
-constexpr double kMostAcross = 1.2;  // [m]
-constexpr std::size_t kLeastReturns = 3;
-constexpr double kMostRange = 10.0;  // Farther away there are too few beams on a person [m].
-constexpr double kLeastRadius = 0.05;
-constexpr double kMostRadius = 0.6;
+constexpr double kMaxGap = 0.25;    // Between neighbours of a group [m].
+constexpr double kMaxAcross = 1.2;  // [m]
+constexpr std::size_t kMinReturns = 3;
+constexpr double kMaxRange = 10.0;  // Farther away there are too few beams on a person [m].
+constexpr double kMinRadius = 0.05;
+constexpr double kMaxRadius = 0.6;
 
 constexpr double kSigmaWhole = 0.04;  // Of a group's centre [m].
 constexpr double kSigmaCut = 0.15;    // Where only part of it can be seen [m],
@@ -24,7 +24,7 @@ constexpr double kSigmaRound = 0.06;  // and that is curved [m].
 /// The curvature of the visible part is evaluated from this half length on [m]. The part counts as
 /// curved from this fraction of the expected curvature on, and this multiple of the noise of a
 /// mean.
-constexpr double kLeastHalfChord = 0.08;
+constexpr double kMinHalfChord = 0.08;
 constexpr double kRoundFrom = 0.5;
 constexpr double kSurely = 3.5;
 constexpr double kRangeSigma = 0.01;        // [m]
@@ -32,7 +32,7 @@ constexpr double kSigmaAcceleration = 1.5;  // Of people walking [m/s²].
 constexpr double kSigmaFirstVelocity = 1.0;
 constexpr double kGate = 0.4;        // Between a track and its group [m],
 constexpr double kGateGrowth = 0.4;  // growing with the time since it was seen [m/s].
-constexpr double kMostGate = 1.0;
+constexpr double kMaxGate = 1.0;
 constexpr double kMovesFrom = 0.2;    // [m/s]
 constexpr double kStandsBelow = 0.1;  // [m/s]
 constexpr int kUpdatesToMove = 6;
@@ -43,7 +43,7 @@ constexpr double kRadiusShare = 0.1;  // Weight of a new measurement in a track'
 /// Whether the beam next to the group is blocked by something nearer, or outside the field of view.
 bool is_cut_at(const ScanInMap& scan, std::ptrdiff_t beside, double range_m) {
   if (beside < 0 || beside >= static_cast<std::ptrdiff_t>(scan.clear_m.size())) return true;
-  return scan.clear_m[static_cast<std::size_t>(beside)] < range_m - kMostGap;
+  return scan.clear_m[static_cast<std::size_t>(beside)] < range_m - kMaxGap;
 }
 
 /// Mean range of the middle third of a group's returns: for a disc, almost that of its nearest
@@ -76,7 +76,7 @@ void fit_part(const ScanInMap& scan, ReturnGroup& group) {
   const Eigen::Vector2d last =
       mean_point(scan, group.returns, group.returns.size() - third, group.returns.size());
   const double half_chord = 0.5 * (last - first).norm();
-  if (half_chord < kLeastHalfChord || half_chord > kUsualRadius_m) return;
+  if (half_chord < kMinHalfChord || half_chord > kUsualRadius_m) return;
   // Beams run counterclockwise, so away from the laser is to the right of the line from first to
   // last.
   const Eigen::Vector2d along = (last - first) / (2.0 * half_chord);
@@ -98,7 +98,7 @@ void fit_disc(const ScanInMap& scan, ReturnGroup& group) {
   const double half_angle = 0.5 * step * static_cast<double>(last.beam - first.beam + 1);
   const double near = middle_range(scan, group.returns);
   const double of_half = sine(std::min(half_angle, 1.0));
-  group.radius_m = std::clamp(near * of_half / (1.0 - of_half), kLeastRadius, kMostRadius);
+  group.radius_m = std::clamp(near * of_half / (1.0 - of_half), kMinRadius, kMaxRadius);
   const double angle = scan.q_ML.yaw + scan.first_angle_rad +
                        0.5 * step * static_cast<double>(first.beam + last.beam);
   group.centre_M = position_of(scan.q_ML) +
@@ -114,9 +114,9 @@ double sigma_of(const ReturnGroup& group) {
 }
 
 bool is_group(const ScanInMap& scan, const std::vector<std::size_t>& returns) {
-  return returns.size() >= kLeastReturns &&
+  return returns.size() >= kMinReturns &&
          (scan.returns[returns.front()].point_M - scan.returns[returns.back()].point_M).norm() <=
-             kMostAcross;
+             kMaxAcross;
 }
 
 }  // namespace
@@ -134,9 +134,9 @@ std::vector<ReturnGroup> groups_of(const ScanInMap& scan, const std::vector<bool
     open.clear();
   };
   for (std::size_t i = 0; i < scan.returns.size(); ++i) {
-    if (!is_candidate[i] || scan.returns[i].range_m > kMostRange) continue;
+    if (!is_candidate[i] || scan.returns[i].range_m > kMaxRange) continue;
     if (!open.empty() &&
-        (scan.returns[i].point_M - scan.returns[open.back()].point_M).norm() > kMostGap) {
+        (scan.returns[i].point_M - scan.returns[open.back()].point_M).norm() > kMaxGap) {
       close();
     }
     open.push_back(i);
@@ -196,7 +196,7 @@ std::vector<int> ObstacleTracker::assign(const std::vector<ReturnGroup>& groups)
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const double unseen_s = to_seconds(tracks_[t].time - tracks_[t].seen);
-    const double gate = std::min(kGate + kGateGrowth * unseen_s, kMostGate);
+    const double gate = std::min(kGate + kGateGrowth * unseen_s, kMaxGate);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const double distance = (groups[g].centre_M - tracks_[t].centre_M).norm();
       if (distance < gate) pairs.emplace_back(distance, t, g);

@@ -63,14 +63,14 @@ int cells_for(double distance_m, double resolution_m) {
 }
 
 std::vector<float> near_distances(const std::vector<std::uint8_t>& sources, int width,
-                                  int most_cells) {
+                                  int max_cells) {
   const auto columns = static_cast<std::size_t>(width);
-  const auto most = static_cast<std::size_t>(most_cells);
+  const auto most = static_cast<std::size_t>(max_cells);
   const std::vector<std::int16_t> along =
-      column_distances(sources, columns, static_cast<std::int16_t>(most_cells));
+      column_distances(sources, columns, static_cast<std::int16_t>(max_cells));
   std::vector<float> roots(most * most + 1);
   for (std::size_t i = 0; i < roots.size(); ++i) roots[i] = std::sqrt(static_cast<float>(i));
-  std::vector<Lowered> padded(columns + 2 * most, lowered(most_cells * most_cells));
+  std::vector<Lowered> padded(columns + 2 * most, lowered(max_cells * max_cells));
   std::vector<Lowered> best(columns);
   std::vector<float> distances(sources.size());
   for (std::size_t row = 0; row < sources.size(); row += columns) {

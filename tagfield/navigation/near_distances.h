@@ -9,12 +9,12 @@
 namespace tagfield {
 
 /// The distance from each cell of a grid of `width` to the nearest source cell (not 0), centre to
-/// centre, in cells, capped at `most_cells`. Exact: along the columns first, then along the rows by
-/// trying all offsets up to `most_cells`, which for a few dozen is several times as fast as
+/// centre, in cells, capped at `max_cells`. Exact: along the columns first, then along the rows by
+/// trying all offsets up to `max_cells`, which for a few dozen is several times as fast as
 /// distance_field(), since it has no branches. `sources` is in row-major order, its size a multiple
-/// of `width` > 0; 1 ≤ most_cells ≤ 180.
+/// of `width` > 0; 1 ≤ max_cells ≤ 180.
 std::vector<float> near_distances(const std::vector<std::uint8_t>& sources, int width,
-                                  int most_cells);
+                                  int max_cells);
 
 /// Number of cells of `resolution_m` that cover `distance_m` and one cell more, within the limits
 /// of near_distances().

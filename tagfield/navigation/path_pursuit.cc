@@ -18,7 +18,7 @@ constexpr double kShareOfBraking = 0.5;
 constexpr double kShareOfTurn = 0.7;
 constexpr double kPerSecond = 1.5;      ///< Fraction of the remaining path driven per second.
 constexpr double kTurnPerSecond = 3.0;  ///< Same for an angle.
-constexpr double kLeastSpeed = 0.02;    ///< Ensures that the end is reached [m/s].
+constexpr double kMinSpeed = 0.02;      ///< Ensures that the end is reached [m/s].
 
 }  // namespace
 
@@ -58,12 +58,12 @@ BodyVelocity PathPursuit::wanted(const PlanarPose& pose_M) {
   const double remaining = std::max(remaining_m(), (way_.points().back() - here).norm());
   // The arc to the look-ahead point, tangent to the heading.
   const double curvature = 2.0 * sine(angle) / std::max(distance, 1e-3);
-  const double most_turn = kShareOfTurn * style_.limits.turn_rad_s;
+  const double max_turn = kShareOfTurn * style_.limits.turn_rad_s;
   const double braking = kShareOfBraking * style_.limits.acceleration_m_s2;
   const double speed = std::min({style_.speed_m_s, style_.limits.speed_m_s,
-                                 std::max(kLeastSpeed, kPerSecond * remaining),
-                                 std::sqrt(2.0 * braking * remaining) + kLeastSpeed,
-                                 most_turn / std::max(std::abs(curvature), 1e-9)});
+                                 std::max(kMinSpeed, kPerSecond * remaining),
+                                 std::sqrt(2.0 * braking * remaining) + kMinSpeed,
+                                 max_turn / std::max(std::abs(curvature), 1e-9)});
   return {speed, speed * curvature};
 }
 

@@ -15,7 +15,7 @@ constexpr double kStep = 0.1;  // [s]
 constexpr double kAlmost = 1e-9;
 /// Growth of the uncertainty about a moving obstacle's position [m/s], and its maximum [m].
 constexpr double kUnsure = 0.1;
-constexpr double kMostUnsure = 0.25;
+constexpr double kMaxUnsure = 0.25;
 
 /// Steps the robot through a manoeuvre.
 struct ReachedWalk {
@@ -68,7 +68,7 @@ bool Rollouts::is_ground_known_behind(const PlanarPose& pose) const {
 
 double Rollouts::gap(const MovingObstacle& moving, const PlanarPose& pose, double t) const {
   return (moving.at(t) - position_of(pose)).norm() - moving.radius_m - settings_.size.radius_m -
-         std::min(kUnsure * t, kMostUnsure);
+         std::min(kUnsure * t, kMaxUnsure);
 }
 
 void Rollouts::check(const PlanarPose& pose, const BodyVelocity& velocity, double t,

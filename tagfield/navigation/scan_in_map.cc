@@ -17,7 +17,7 @@ Eigen::Vector2d polar(double angle_rad, double range_m) {
 
 /// Adds points at the minimum range where a run of neighbouring beams is invalid.
 void add_blind(const LaserScan& scan, std::size_t begin, std::size_t end, ScanInMap& seen) {
-  if (static_cast<double>(end - begin) * scan.angle_step_rad < ScanInMap::kLeastBlind) return;
+  if (static_cast<double>(end - begin) * scan.angle_step_rad < ScanInMap::kMinBlind) return;
   // One point every 3° leaves no gap that matters at a range of decimetres.
   const auto stride = static_cast<std::size_t>(std::max(1.0, 0.05 / scan.angle_step_rad));
   for (std::size_t i = begin; i < end; i += stride) {

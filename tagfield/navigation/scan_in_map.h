@@ -30,10 +30,10 @@ struct ScanInMap {
   double angle_step_rad = 0.0;
   double valid_share = 0.0;  ///< Of all beams.
   /// Where there may be something nearer than the laser's minimum range: points at that range for
-  /// each run of neighbouring invalid beams that is wider than kLeastBlind.
+  /// each run of neighbouring invalid beams that is wider than kMinBlind.
   std::vector<Eigen::Vector2d> may_be_M;
 
-  static constexpr double kLeastBlind = 0.09;  ///< [rad], about 5°.
+  static constexpr double kMinBlind = 0.09;  ///< [rad], about 5°.
 
   /// Least of clear_m within `half_width_rad` of the direction from the laser to `p_M`; 0 outside
   /// the laser's field of view.

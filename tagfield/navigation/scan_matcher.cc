@@ -53,7 +53,7 @@ std::optional<Eigen::Vector2i> nearest_occupied(const HitGrid& map, const Eigen:
 }
 
 /// The surface through the occupied cells around `cell`.
-Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell, double most_ends) {
+Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell, double max_ends) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   double weight = 0.0;
@@ -63,7 +63,7 @@ Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell, double most_
       const HitCell& near = map.at(x, y);
       if (!near.is_occupied()) continue;
       const Eigen::Vector2d p = map.mean_of(x, y, near) - middle;
-      const double w = std::min<double>(near.hits, most_ends);
+      const double w = std::min<double>(near.hits, max_ends);
       sum += w * p;
       squares += w * p * p.transpose();
       weight += w;
@@ -84,19 +84,19 @@ Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell, double most_
 /// A cache of the surfaces of one map: most points of a scan and all iterations use the same ones.
 class Surfaces {
  public:
-  Surfaces(const HitGrid& map, double most_ends) : map_(map), most_ends_(most_ends) {}
+  Surfaces(const HitGrid& map, double max_ends) : map_(map), max_ends_(max_ends) {}
 
   const Surface& at(const Eigen::Vector2i& cell) {
     const auto key = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.x())) << 32U) |
                      static_cast<std::uint32_t>(cell.y());
     const auto [entry, is_new] = known_.try_emplace(key);
-    if (is_new) entry->second = surface_at(map_, cell, most_ends_);
+    if (is_new) entry->second = surface_at(map_, cell, max_ends_);
     return entry->second;
   }
 
  private:
   const HitGrid& map_;
-  double most_ends_;
+  double max_ends_;
   std::unordered_map<std::uint64_t, Surface> known_;
 };
 
@@ -163,7 +163,7 @@ ScanMatch match_scan(const HitGrid& map, const std::vector<Eigen::Vector2d>& poi
                      const Eigen::Matrix3d& prior_information, const MatchOptions& options) {
   ScanMatch match;
   match.pose_M = guess_M;
-  Surfaces surfaces(map, options.most_ends);
+  Surfaces surfaces(map, options.max_ends);
   for (int i = 0; i < options.iterations; ++i) {
     // A wide search first, then only the nearby surface.
     const int reach = i < 3 ? options.search_cells : 2;

@@ -23,7 +23,7 @@ struct MatchOptions {
   /// A cell weighs in its surface no more than this many endpoints. Without a limit the surface is
   /// at the mean of the endpoints; a low limit shifts it by up to half of their spread where a wall
   /// lies near the border of two cells.
-  double most_ends = std::numeric_limits<double>::infinity();
+  double max_ends = std::numeric_limits<double>::infinity();
 };
 
 struct ScanMatch {

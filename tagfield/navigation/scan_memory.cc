@@ -26,7 +26,7 @@ std::uint64_t key_of(const Eigen::Vector2d& p) {
 bool ScanMemory::is_old(const Point& point, Time now) {
   const double stood_s = to_seconds(point.last - point.first);
   const double kept_s =
-      point.is_on_map ? kOnMap : std::clamp(3.0 * stood_s, kLeastOffMap, kMostOffMap);
+      point.is_on_map ? kOnMap : std::clamp(3.0 * stood_s, kMinOffMap, kMaxOffMap);
   return to_seconds(now - point.last) > kept_s;
 }
 

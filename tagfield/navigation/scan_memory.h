@@ -22,8 +22,8 @@ class ScanMemory {
   static constexpr double kCell = 0.05;         ///< [m]
   static constexpr double kReach = 6.0;         ///< Returns farther away are ignored [m].
   static constexpr double kOnMap = 2.0;         ///< [s]
-  static constexpr double kLeastOffMap = 3.0;   ///< [s]
-  static constexpr double kMostOffMap = 60.0;   ///< [s]
+  static constexpr double kMinOffMap = 3.0;     ///< [s]
+  static constexpr double kMaxOffMap = 60.0;    ///< [s]
   static constexpr double kStandsAfter = 0.5;   ///< A point seen this long is static [s].
   static constexpr double kSeenThrough = 0.06;  ///< How far past a point a beam must reach [m].
 

@@ -37,13 +37,13 @@ std::vector<std::optional<Eigen::Vector2f>> ends_of_every(const LaserScan& scan,
 
 }  // namespace
 
-ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double most_clear_m) {
+ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double max_clear_m) {
   const PlanarPose q_RL = planar(X_RL);
   ScanPoints points;
   points.sensor_R = position_of(q_RL);
   if (!std::isfinite(scan.first_angle_rad) || !std::isfinite(scan.angle_step_rad)) return points;
   points.ends_R.reserve(scan.ranges_m.size());
-  const double clear_m = std::min(most_clear_m, scan.max_range_m);
+  const double clear_m = std::min(max_clear_m, scan.max_range_m);
   double angle = scan.first_angle_rad;
   for (const float range : scan.ranges_m) {
     const Eigen::Vector2d direction_L(cosine(angle), sine(angle));

@@ -20,9 +20,9 @@ struct ScanPoints {
 };
 
 /// The beams of `scan`, treated as simultaneous. A beam without a hit is clear up to
-/// `most_clear_m`, or the laser's range if that is less. Invalid beams, such as NaN, are left out,
+/// `max_clear_m`, or the laser's range if that is less. Invalid beams, such as NaN, are left out,
 /// and so are all beams of a scan whose angles are not finite.
-ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double most_clear_m);
+ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double max_clear_m);
 
 /// A subset of the points such that no two consecutive ones are nearer to each other than
 /// `spacing_m`: where beams are dense, near the laser, they would outweigh all others.

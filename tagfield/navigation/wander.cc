@@ -17,7 +17,7 @@ constexpr double kSight = 4.0;
 constexpr double kLeg = 3.0;
 /// Length left undriven at the end of a free section, and the least length worth driving [m].
 constexpr double kSpare = 0.3;
-constexpr double kLeastWay = 0.8;
+constexpr double kMinWay = 0.8;
 /// Kept free to the sides, beyond the robot's margin: its path is not quite straight [m].
 constexpr double kBeside = 0.05;
 /// What was seen from a position holds within this distance of it [m].
@@ -25,7 +25,7 @@ constexpr double kSameGoal = 0.5;
 /// Cost of a radian of turning, and of each crumb within kNearCrumb of the end [m].
 constexpr double kTurnCost = 0.4;
 constexpr double kPerCrumb = 1.0;
-constexpr int kMostCrumbs = 3;
+constexpr int kMaxCrumbs = 3;
 constexpr double kNearCrumb = 1.2;
 constexpr double kCrumbSpacing = 1.0;
 constexpr std::size_t kCrumbsKept = 40;
@@ -83,9 +83,9 @@ void mark(OccupancyGrid& floor, const std::vector<Eigen::Vector2d>& points) {
 }  // namespace
 
 double free_distance(const std::vector<Eigen::Vector2d>& points_R, double angle_rad,
-                     double half_width_m, double most_m) {
+                     double half_width_m, double max_m) {
   const Eigen::Vector2d along = direction_of(angle_rad);
-  double way = most_m;
+  double way = max_m;
   for (const Eigen::Vector2d& p : points_R) {
     const double ahead = along.dot(p);
     const double aside = along.x() * p.y() - along.y() * p.x();
@@ -148,7 +148,7 @@ double Wander::gain(std::size_t sector, double way, const PlanarPose& pose_O) co
       std::count_if(crumbs_O_.begin(), crumbs_O_.end(),
                     [&](const Eigen::Vector2d& p) { return (p - end).norm() < kNearCrumb; });
   return way - kTurnCost * std::abs(wrap_to_pi(yaw - pose_O.yaw)) -
-         kPerCrumb * std::min(static_cast<int>(crumbs), kMostCrumbs);
+         kPerCrumb * std::min(static_cast<int>(crumbs), kMaxCrumbs);
 }
 
 void Wander::go(const PlanarPose& goal_O, const PlanarPose& pose_O, bool is_turn, Time now) {
@@ -185,7 +185,7 @@ void Wander::choose(const PlanarPose& pose_O, Time now) {
   for (std::size_t i = 0; i < kSectors; ++i) {
     const double way = way_towards(i, position_of(pose_O));
     const double here = gain(i, way, pose_O);
-    if (way < kLeastWay || (best && here <= best_gain)) continue;
+    if (way < kMinWay || (best && here <= best_gain)) continue;
     best = i;
     best_way = way;
     best_gain = here;

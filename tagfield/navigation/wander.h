@@ -15,10 +15,10 @@
 namespace tagfield {
 
 /// How far a disc of radius `half_width_m` at the origin of frame R can move straight towards
-/// `angle_rad` before it hits one of `points_R` [m], at most `most_m`. Points that it already
+/// `angle_rad` before it hits one of `points_R` [m], at most `max_m`. Points that it already
 /// covers don't count.
 double free_distance(const std::vector<Eigen::Vector2d>& points_R, double angle_rad,
-                     double half_width_m, double most_m);
+                     double half_width_m, double max_m);
 
 /// A full turn, then short drives towards open space, preferring directions ahead and areas not yet
 /// visited; another turn if there is no space. A GoalDriver keeps the robot clear of what its laser

@@ -79,7 +79,7 @@ class GridRun {
       const Eigen::Vector2d middle = grid.middle(column, row);
       const Eigen::Vector3d p_WT(middle.x(), middle.y(), layer.height_m);
       // No result for this pose could change the cell.
-      if (cell.probability >= 1.0 && cell.margin_db >= place.most_margin_db(*request_.tag, p_WT)) {
+      if (cell.probability >= 1.0 && cell.margin_db >= place.max_margin_db(*request_.tag, p_WT)) {
         continue;
       }
       const TagEnd tag{*request_.tag, from_translation(p_WT), key * grid.columns + column};
@@ -132,14 +132,14 @@ Coverage cover(const Scenario& scenario, const std::vector<DriveSample>& samples
   return coverage;
 }
 
-CoverageGrid grid_over(const Eigen::AlignedBox2d& region, double step_m, std::size_t most_cells) {
+CoverageGrid grid_over(const Eigen::AlignedBox2d& region, double step_m, std::size_t max_cells) {
   // Rounding must not add a cell to a region that is an integer number of steps wide.
   const Eigen::Vector2d counts = (region.sizes().array() / step_m - 1e-9).ceil().max(1.0);
-  if (!(counts.x() * counts.y() <= static_cast<double>(most_cells))) {
+  if (!(counts.x() * counts.y() <= static_cast<double>(max_cells))) {
     throw Error(
         fmt::format("a grid of {:g} by {:g} cells is more than {}: expected a greater "
                     "step or a smaller region",
-                    counts.x(), counts.y(), most_cells));
+                    counts.x(), counts.y(), max_cells));
   }
   CoverageGrid grid;
   grid.step_m = step_m;

@@ -40,9 +40,9 @@ Coverage cover(const Scenario& scenario, const std::vector<DriveSample>& samples
 void throw_if_stopped(const CoverageRequest& request);
 
 /// A grid of cells of `step_m` that covers `region` [m]. Throws Error if that takes more than
-/// `most_cells`.
+/// `max_cells`.
 CoverageGrid grid_over(const Eigen::AlignedBox2d& region, double step_m,
-                       std::size_t most_cells = 4'000'000);
+                       std::size_t max_cells = 4'000'000);
 
 /// Number of links to evaluate for the grid: cells × layers × antenna poses.
 double links_of(const std::vector<DriveSample>& samples, const CoverageRequest& request);

@@ -18,7 +18,7 @@ namespace {
 /// Powers below this count as nothing [dBm].
 constexpr double kNothing_dbm = -250.0;
 /// Least distance: with both ends at one point, the paper's RSSI would diverge [m].
-constexpr double kLeastLinkDistance = 1e-3;
+constexpr double kMinLinkDistance = 1e-3;
 
 std::optional<Time> turn_of(const Scenario& scenario, const std::string& antenna, Time time) {
   for (const PortCycle& cycle : port_cycles(physical_antennas(scenario))) {
@@ -29,7 +29,7 @@ std::optional<Time> turn_of(const Scenario& scenario, const std::string& antenna
 
 PaperLink paper_link(const LinkQuestion& question, double distance_m) {
   const AntennaParameters& antenna = question.antenna.parameters;
-  const double apart_m = std::max(distance_m, kLeastLinkDistance);
+  const double apart_m = std::max(distance_m, kMinLinkDistance);
   PaperLink link;
   const PaperAntenna& model = paper(antenna);
   link.range_m = model.range_m;
@@ -101,9 +101,9 @@ double normal_above(double x) { return 0.5 * std::erfc(x / std::sqrt(2.0)); }
 double heard_probability(const PaperAntenna& antenna, double distance_m) {
   if (!antenna.sensitivity_dbm) return 1.0;
   // RSSIs are integers.
-  const double least_dbm = std::ceil(*antenna.sensitivity_dbm) - 0.5;
-  const double least = std::pow(10.0, least_dbm / 40.0);
-  const double apart_m = std::max(distance_m, kLeastLinkDistance);
+  const double min_dbm = std::ceil(*antenna.sensitivity_dbm) - 0.5;
+  const double least = std::pow(10.0, min_dbm / 40.0);
+  const double apart_m = std::max(distance_m, kMinLinkDistance);
   const double amplitude = antenna.model.communication_gain *
                            wavelength(antenna.model.frequency_hz) / (4.0 * kPi * apart_m);
   const double sigma = antenna.model.rssi_noise;

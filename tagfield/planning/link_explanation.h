@@ -26,8 +26,8 @@ struct MaterialOnLink {
   std::string name;
   double permittivity = 1.0;      ///< Real part of the relative permittivity.
   double conductivity_s_m = 0.0;  ///< [S/m]
-  double least_ghz = 0.0;         ///< Range in which its coefficients were measured,
-  double most_ghz = 0.0;          ///< infinity if unknown.
+  double min_ghz = 0.0;           ///< Range in which its coefficients were measured,
+  double max_ghz = 0.0;           ///< infinity if unknown.
   bool is_measured_here = true;   ///< Whether the carrier lies within this range.
 };
 

@@ -10,13 +10,13 @@ namespace tagfield {
 namespace {
 
 constexpr double kStep_db = 0.25;
-constexpr int kMostSteps = 126;
+constexpr int kMaxSteps = 126;
 constexpr std::int8_t kNoLink = -128;
 
 std::int8_t step_of(double margin_db) {
-  if (margin_db < -0.5 * kMostSteps) return kNoLink;
+  if (margin_db < -0.5 * kMaxSteps) return kNoLink;
   return static_cast<std::int8_t>(
-      std::clamp<long>(std::lround(std::floor(margin_db / kStep_db)), -kMostSteps, kMostSteps));
+      std::clamp<long>(std::lround(std::floor(margin_db / kStep_db)), -kMaxSteps, kMaxSteps));
 }
 
 }  // namespace

@@ -14,11 +14,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::size_t kMostCarriers = 8;
+constexpr std::size_t kMaxCarriers = 8;
 constexpr std::size_t kPlaces = kFadingPositions;
 
 std::size_t step_of_carriers(std::size_t channels) {
-  return (channels + kMostCarriers - 1) / kMostCarriers;
+  return (channels + kMaxCarriers - 1) / kMaxCarriers;
 }
 
 /// A ray's contribution to the one-way gain at the tag's centre.
@@ -219,7 +219,7 @@ std::vector<double> fading_margins_db(const RadioView& view, const TagEnd& tag,
   return margins;
 }
 
-double most_margin_db(const RadioModel& model, const TagModel& tag, double distance_m) {
+double max_margin_db(const RadioModel& model, const TagModel& tag, double distance_m) {
   const double lambda_m = wavelength(model.plan.carriers_hz.front());
   const bool has_others = (model.effects.reflections && model.reflection_order > 0) ||
                           (model.effects.diffraction && model.diffraction) ||

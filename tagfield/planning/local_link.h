@@ -56,6 +56,6 @@ std::vector<double> fading_margins_db(const RadioView& view, const TagEnd& tag,
 
 /// Upper bound on the margin [dB] of any tag at `distance_m`: at peak gains, and with twice the
 /// field of the direct path if there may be others.
-double most_margin_db(const RadioModel& model, const TagModel& tag, double distance_m);
+double max_margin_db(const RadioModel& model, const TagModel& tag, double distance_m);
 
 }  // namespace tagfield

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Shorter edges, below about a wavelength, don't diffract waves as in the theory [m].
-constexpr double kLeastLength = 0.3;
+constexpr double kMinLength = 0.3;
 /// Plates up to this thickness, about a tenth of a wavelength, count as sheets [m].
 constexpr double kThinPlate = 0.03;
 constexpr double kParallel = 0.9999;  ///< Cosine.
@@ -22,7 +22,7 @@ constexpr double kParallel = 0.9999;  ///< Cosine.
 constexpr double kAbove = 2e-3;
 /// and spacing of these samples along an edge [m].
 constexpr double kSampling = 0.1;
-constexpr std::size_t kMostSamples = 64;
+constexpr std::size_t kMaxSamples = 64;
 
 /// Points of a facet are closer than this to its plane [m].
 constexpr double kFlat = 1e-3;
@@ -108,7 +108,7 @@ bool is_free(const RadioScene& waves, const DiffractingEdge& edge, const Vector3
 void add_free_parts(const RadioScene& waves, const DiffractingEdge& edge,
                     std::vector<DiffractingEdge>& edges) {
   const auto wanted = static_cast<std::size_t>(std::ceil(edge.length_m / kSampling));
-  const std::size_t count = std::clamp(wanted, std::size_t{3}, kMostSamples);
+  const std::size_t count = std::clamp(wanted, std::size_t{3}, kMaxSamples);
   const double step = edge.length_m / static_cast<double>(count);
   std::size_t begin = 0;
   for (std::size_t i = 0; i <= count; ++i) {
@@ -117,7 +117,7 @@ void add_free_parts(const RadioScene& waves, const DiffractingEdge& edge,
     DiffractingEdge part = edge;
     part.from_W += static_cast<double>(begin) * step * edge.axis_W;
     part.length_m = static_cast<double>(i - begin) * step;
-    if (part.length_m >= kLeastLength) edges.push_back(part);
+    if (part.length_m >= kMinLength) edges.push_back(part);
     begin = i + 1;
   }
 }
@@ -131,7 +131,7 @@ std::vector<DiffractingEdge> diffracting_edges(const Scene& scene, const RadioSc
     if (std::holds_alternative<Plane>(collision.shape)) continue;
     std::vector<DiffractingEdge> edges = creases(weld(world_mesh(collision)));
     edges.erase(std::remove_if(edges.begin(), edges.end(),
-                               [](const auto& edge) { return edge.length_m < kLeastLength; }),
+                               [](const auto& edge) { return edge.length_m < kMinLength; }),
                 edges.end());
     for (DiffractingEdge& edge : edges) {
       edge.solid = solid;

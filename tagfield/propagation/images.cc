@@ -13,7 +13,7 @@ namespace tagfield {
 namespace {
 
 /// An antenna or image must be further than this from a facet's plane to be mirrored [m].
-constexpr double kLeastHeight = 1e-6;
+constexpr double kMinHeight = 1e-6;
 
 class Builder {
  public:
@@ -59,7 +59,7 @@ class Builder {
   /// 1 if the facet reflects a wave from `p` on its front, -1 if on its back, 0 if not at all.
   [[nodiscard]] int side(const Facet& facet, const Eigen::Vector3d& p) const {
     const double height = facet.normal_W.dot(p) - facet.offset_m;
-    const int there = height > kLeastHeight ? 1 : (height < -kLeastHeight ? -1 : 0);
+    const int there = height > kMinHeight ? 1 : (height < -kMinHeight ? -1 : 0);
     if (facet.two_sided) return there;
     const int mirrors = inside_[facet.shell] != 0 ? -1 : 1;
     return there == mirrors ? there : 0;
@@ -94,12 +94,12 @@ class Builder {
       if (!part) return;
       window = *part;
     }
-    if (distance_to(window, facet, image.p_W) > options_.most_length_m) return;
+    if (distance_to(window, facet, image.p_W) > options_.max_length_m) return;
     push(image, beam_through(window, image, facet));
   }
 
   void add_endless(const Image& image) {
-    if (image.offset_m - image.normal_W.dot(image.p_W) > options_.most_length_m) return;
+    if (image.offset_m - image.normal_W.dot(image.p_W) > options_.max_length_m) return;
     const bool first = image.parent < 0;
     push(image, first ? open_beam()
                       : mirrored_beam(beams_[static_cast<std::size_t>(image.parent)], image));

@@ -11,7 +11,7 @@
 namespace tagfield {
 
 /// Maximum number of reflections on a path.
-inline constexpr int kMostBounces = 3;
+inline constexpr int kMaxBounces = 3;
 
 /// Reflection of the wave by a facet.
 struct Bounce {
@@ -38,9 +38,9 @@ struct Crossing {
 /// bounce_count + 1 of them.
 struct RadioPath {
   int bounce_count = 0;
-  std::array<Bounce, kMostBounces> bounces;  ///< The first `bounce_count` are set.
-  std::vector<Crossing> crossings;           ///< In the order in which the wave reaches them.
-  double length_m = 0.0;                     ///< Total of all legs.
+  std::array<Bounce, kMaxBounces> bounces;  ///< The first `bounce_count` are set.
+  std::vector<Crossing> crossings;          ///< In the order in which the wave reaches them.
+  double length_m = 0.0;                    ///< Total of all legs.
   Eigen::Vector3d departure_W =
       Eigen::Vector3d::Zero();  ///< Unit vector: direction of travel at the antenna.
   Eigen::Vector3d arrival_W =

@@ -18,7 +18,7 @@ namespace {
 /// Far above rounding errors [m].
 constexpr double kHeight = 1e-6;
 /// With more facets, pairs are not tabulated: the table would take more than 16 MB.
-constexpr std::size_t kMostTabulated = 4096;
+constexpr std::size_t kMaxTabulated = 4096;
 constexpr char kInFront = 1;
 constexpr char kBehind = 2;
 
@@ -62,7 +62,7 @@ char sides(const Facet& plane, const Facet& other) {
 
 std::vector<char> table_of_sides(const std::vector<Facet>& facets) {
   std::vector<char> table;
-  if (facets.size() > kMostTabulated) return table;
+  if (facets.size() > kMaxTabulated) return table;
   table.reserve(facets.size() * facets.size());
   for (const Facet& plane : facets) {
     for (const Facet& other : facets) table.push_back(sides(plane, other));
@@ -107,7 +107,7 @@ void RadioScene::add_plane(const Collision& collision, std::uint32_t solid) {
   facets_.push_back(std::move(facet));
 }
 
-void RadioScene::add_solid(const Collision& collision, std::uint32_t solid, double least_m2) {
+void RadioScene::add_solid(const Collision& collision, std::uint32_t solid, double min_m2) {
   const WeldedMesh mesh = weld(world_mesh(collision));
   const std::vector<Edge> edges = sorted_edges(mesh);
   const Pieces pieces = find_pieces(mesh, edges);
@@ -123,7 +123,7 @@ void RadioScene::add_solid(const Collision& collision, std::uint32_t solid, doub
                                                    : first_shell + pieces.of_triangle[kept]);
   }
   for (Facet& facet : flat_pieces(mesh, edges, pieces, flat_triangles(collision, mesh))) {
-    if (facet.area_m2 < least_m2) {
+    if (facet.area_m2 < min_m2) {
       ++left_out_.count;
       left_out_.area_m2 += facet.area_m2;
       continue;

@@ -89,7 +89,7 @@ class RadioScene {
 
  private:
   void add_plane(const Collision& collision, std::uint32_t solid);
-  void add_solid(const Collision& collision, std::uint32_t solid, double least_m2);
+  void add_solid(const Collision& collision, std::uint32_t solid, double min_m2);
 
   RayScene rays_;
   std::vector<char> opaque_;

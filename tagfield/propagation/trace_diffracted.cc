@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// An end must be further than this from an edge's line [m].
-constexpr double kLeastRadius = 1e-3;
+constexpr double kMinRadius = 1e-3;
 /// Legs are traced up to this distance from the edge [m].
 constexpr double kBefore = 1e-3;
 
@@ -83,10 +83,10 @@ void trace_diffracted(const RadioScene& scene, const std::vector<DiffractingEdge
     const DiffractingEdge& edge = edges[i];
     const Around antenna = around(edge, p_WA);
     const Around tag = around(edge, p_WT);
-    if (antenna.radius < kLeastRadius || tag.radius < kLeastRadius) continue;
+    if (antenna.radius < kMinRadius || tag.radius < kMinRadius) continue;
     if (!is_outside(edge, antenna) || !is_outside(edge, tag)) continue;
     if (!set_way(edge, p_WA, p_WT, antenna, tag, path)) continue;
-    if (path.length_m() > options.most_length_m) continue;
+    if (path.length_m() > options.max_length_m) continue;
     path.edge = i;
     path.crossings.clear();
     if (options.occlusion) {

@@ -16,7 +16,7 @@ namespace tagfield {
 namespace {
 
 /// A tag must be further than this in front of a facet's plane to be reached by its reflection [m].
-constexpr double kLeastMirrorDistance = 1e-6;
+constexpr double kMinMirrorDistance = 1e-6;
 /// Paths whose bounces are closer together than this are one path [m].
 constexpr double kSamePoint = 1e-6;
 
@@ -96,7 +96,7 @@ Leg leg_of(const RadioPath& path, int number, const Eigen::Vector3d& p_WA,
 std::optional<std::uint64_t> way_of(const RadioPath& path) {
   constexpr int kBits = 20;
   auto way = static_cast<std::uint64_t>(path.bounce_count);
-  for (std::size_t i = 0; i < kMostBounces; ++i) {
+  for (std::size_t i = 0; i < kMaxBounces; ++i) {
     const bool is_there = i < static_cast<std::size_t>(path.bounce_count);
     const std::uint32_t facet = is_there ? path.bounces[i].facet : 0;
     if (facet >= 1U << kBits) return std::nullopt;
@@ -122,7 +122,7 @@ class StopSearch {
   }
   /// Records what blocks the path that was last passed to find().
   void keep(std::uint32_t collision, std::uint32_t triangle, int leg) {
-    if (!way_ || last_.next.size() >= kMostStops) return;
+    if (!way_ || last_.next.size() >= kMaxStops) return;
     last_.next.push_back({*way_, collision, triangle, leg});
   }
 
@@ -162,7 +162,7 @@ bool walk_all(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen:
 
 bool is_same_path(const RadioPath& one, const RadioPath& other) {
   // Moving a bounce by some distance changes the length by at most twice that.
-  constexpr double kSameLength = 2.0 * kMostBounces * kSamePoint;
+  constexpr double kSameLength = 2.0 * kMaxBounces * kSamePoint;
   if (!(std::abs(one.length_m - other.length_m) < kSameLength)) return false;
   for (std::size_t i = 0; i < static_cast<std::size_t>(one.bounce_count); ++i) {
     if (!((one.bounces[i].p_W - other.bounces[i].p_W).norm() < kSamePoint)) return false;
@@ -197,7 +197,7 @@ void trace_direct(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Ei
   RadioPath& path = paths.blank();
   path.bounce_count = 0;
   path.length_m = (p_WT - p_WA).norm();
-  if (path.length_m > options.most_length_m) return;
+  if (path.length_m > options.max_length_m) return;
   set_ends(p_WA, p_WT, path);
   if (walk_all(scene, p_WA, p_WT, options, search, path)) paths.keep();
 }
@@ -207,8 +207,8 @@ void trace_mirrored(const RadioScene& scene, const ImageSet& set, const Image& i
                     Collector& paths) {
   RadioPath& path = paths.blank();
   path.length_m = (p_WT - image.p_W).norm();
-  if (path.length_m > options.most_length_m) return;
-  if (!(image.normal_W.dot(p_WT) - image.offset_m > kLeastMirrorDistance)) return;
+  if (path.length_m > options.max_length_m) return;
+  if (!(image.normal_W.dot(p_WT) - image.offset_m > kMinMirrorDistance)) return;
   if (!find_bounces(scene, set, image, p_WT, path)) return;
   if (!walk_all(scene, set.p_WA, p_WT, options, search, path)) return;
   set_ends(set.p_WA, p_WT, path);
@@ -239,10 +239,9 @@ void trace_all(const RadioScene& scene, const ImageSet& images, const Eigen::Vec
 }  // namespace
 
 void check(const TraceOptions& options) {
-  require(options.order >= 0 && options.order <= kMostBounces, "paths: order", "0 to 3",
+  require(options.order >= 0 && options.order <= kMaxBounces, "paths: order", "0 to 3",
           options.order);
-  require(options.most_length_m >= 0.0, "paths: most_length_m", "at least 0",
-          options.most_length_m);
+  require(options.max_length_m >= 0.0, "paths: max_length_m", "at least 0", options.max_length_m);
   require(options.mount_depth_m >= 0.0 && options.mount_depth_m <= 1.0, "paths: mount_depth_m",
           "0 to 1", options.mount_depth_m);
 }

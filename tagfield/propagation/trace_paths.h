@@ -17,10 +17,10 @@
 namespace tagfield {
 
 struct TraceOptions {
-  int order = 0;              ///< Maximum number of bounces: 0 … kMostBounces.
+  int order = 0;              ///< Maximum number of bounces: 0 … kMaxBounces.
   bool occlusion = true;      ///< If false, nothing obstructs and there are no crossings.
   bool keep_blocked = false;  ///< Keep paths through opaque solids, marked as blocked.
-  double most_length_m = std::numeric_limits<double>::infinity();  ///< Longer paths are omitted.
+  double max_length_m = std::numeric_limits<double>::infinity();  ///< Longer paths are omitted.
   /// An end inside a solid by up to this depth [m] counts as mounted on its surface, and is visible
   /// from outside.
   double mount_depth_m = 0.015;
@@ -57,8 +57,8 @@ struct ImageSet {
 };
 
 /// What blocked the paths of one tag when they were last traced. These triangles are tested first
-/// the next time, which is faster and doesn't change the results. At most kMostStops of them, 6 kB.
-inline constexpr std::size_t kMostStops = 256;
+/// the next time, which is faster and doesn't change the results. At most kMaxStops of them, 6 kB.
+inline constexpr std::size_t kMaxStops = 256;
 struct LastStops {
   struct Stop {
     std::uint64_t way = 0;        ///< The path's facets in order.
@@ -77,7 +77,7 @@ std::vector<char> shells_around(const RadioScene& scene, const Eigen::Vector3d& 
 
 /// The images of an antenna at `p_WA` [m, world] up to `options.order`, without those that are
 /// visible from nowhere. No images if `p_WA` is not finite or more than 1e9 m from the origin along
-/// an axis. Throws Error if `options.order` is not 0 … kMostBounces or another option is out of
+/// an axis. Throws Error if `options.order` is not 0 … kMaxBounces or another option is out of
 /// range.
 ImageSet images_of(const RadioScene& scene, const Eigen::Vector3d& p_WA,
                    const TraceOptions& options);

@@ -15,8 +15,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeastRate = 1e-9;  // One update in 32 years: stamps must not overflow.
-constexpr double kMostRate = 1e6;
+constexpr double kMinRate = 1e-9;  // One update in 32 years: stamps must not overflow.
+constexpr double kMaxRate = 1e6;
 
 std::uint64_t stamp_key(Time stamp) {
   return static_cast<std::uint64_t>(stamp.time_since_epoch().count());
@@ -33,7 +33,7 @@ void check_range(const PaperAntenna& antenna) {
 void check(const AntennaParameters& antenna) {
   const auto* const paper = std::get_if<PaperAntenna>(&antenna.model);
   if (paper != nullptr) check(paper->model);
-  require_in_range("rate_hz", antenna.rate_hz, kLeastRate, kMostRate);
+  require_in_range("rate_hz", antenna.rate_hz, kMinRate, kMaxRate);
   if (paper != nullptr) check_range(*paper);
 }
 

@@ -16,8 +16,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeastCarrier = 1e6;
-constexpr double kMostCarrier = 300e9;
+constexpr double kMinCarrier = 1e6;
+constexpr double kMaxCarrier = 300e9;
 
 std::vector<double> evenly(double first_hz, double step_hz, int count) {
   std::vector<double> carriers;
@@ -38,7 +38,7 @@ std::vector<ChannelPlan> make_plans() {
 }
 
 void check_carrier(const ChannelPlan& plan, double carrier_hz) {
-  require(carrier_hz >= kLeastCarrier && carrier_hz <= kMostCarrier, "a carrier",
+  require(carrier_hz >= kMinCarrier && carrier_hz <= kMaxCarrier, "a carrier",
           "from 1 MHz to 300 GHz", carrier_hz);
   const bool has_band = plan.band_high_hz > 0.0;
   if (has_band && !(carrier_hz > plan.band_low_hz && carrier_hz < plan.band_high_hz)) {

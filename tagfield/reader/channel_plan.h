@@ -18,7 +18,7 @@ struct ChannelPlan {
   double dwell_s = 0.2;             ///< Dwell time on each; greater than 0.
   double band_low_hz = 0.0;         ///< Edges of the band allowed by the regulation,
   double band_high_hz = 0.0;        ///< both 0 if unknown.
-  double most_erp_dbm = 0.0;        ///< Maximum radiated power relative to a dipole; 0 if unknown.
+  double max_erp_dbm = 0.0;         ///< Maximum radiated power relative to a dipole; 0 if unknown.
   double channel_hz = 200e3;        ///< Width of a channel.
 };
 

@@ -14,14 +14,14 @@ namespace {
 double peak_dbi(const AntennaPattern& pattern) { return to_db(peak_gain(pattern)); }
 
 void warn_of_power(const RadioModel& model, Diagnostics& diagnostics) {
-  if (!(model.plan.most_erp_dbm > 0.0)) return;
+  if (!(model.plan.max_erp_dbm > 0.0)) return;
   const double eirp_dbm = model.transmit_power_dbm - model.cable_loss_db + peak_dbi(model.antenna);
-  const double most_dbm = model.plan.most_erp_dbm + kDipole_dbi;
-  if (eirp_dbm <= most_dbm + 0.05) return;
+  const double max_dbm = model.plan.max_erp_dbm + kDipole_dbi;
+  if (eirp_dbm <= max_dbm + 0.05) return;
   diagnostics.warn(
       fmt::format("{:.1f} dBm EIRP is more than the {:.1f} dBm that the channel plan "
                   "'{}' allows",
-                  eirp_dbm, most_dbm, model.plan.name));
+                  eirp_dbm, max_dbm, model.plan.name));
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ void check(const RadioModel& model, Diagnostics& diagnostics) {
   check(model.antenna, diagnostics);
   check(model.hardware);
   check(model.plan);
-  require_in_range("reflection_order", model.reflection_order, 0, kMostBounces);
+  require_in_range("reflection_order", model.reflection_order, 0, kMaxBounces);
   require_in_range("transmit_power_dbm", model.transmit_power_dbm, -50.0, 60.0);
   require_in_range("cable_loss_db", model.cable_loss_db, 0.0, 100.0);
   require_in_range("phase_offset_rad", model.phase_offset_rad, -1e6, 1e6);

@@ -13,9 +13,9 @@ namespace {
 /// kT at 290 K [dBm/Hz].
 constexpr double kThermal_dbm_hz = -173.98;
 /// Phase noise of a reply far below the noise: any phase.
-constexpr double kMostSigma = 10.0;
+constexpr double kMaxSigma = 10.0;
 /// Weaker than any report.
-constexpr double kLeastRssi = -200.0;
+constexpr double kMinRssi = -200.0;
 
 /// The bit error rate: ½ erfc √(SNR/2).
 double wrong_bits(double snr) { return 0.5 * std::erfc(std::sqrt(0.5 * snr)); }
@@ -73,7 +73,7 @@ double sinr_db(const ReaderHardware& hardware, double reply_dbm, double interfer
 double phase_sigma(const ReaderHardware& hardware, double reply_dbm, double interference_mw) {
   const double snr = from_db(sinr_db(hardware, reply_dbm, interference_mw));
   const double thermal = 1.0 / std::sqrt(2.0 * hardware.averaged_bits * snr);
-  return std::min(kMostSigma, std::hypot(hardware.phase_floor_rad, thermal));
+  return std::min(kMaxSigma, std::hypot(hardware.phase_floor_rad, thermal));
 }
 
 double decode_probability(const ReaderHardware& hardware, double reply_dbm, int bits,
@@ -99,7 +99,7 @@ Measured measure(const ReaderHardware& hardware, const ReceiverEffects& effects,
   if (effects.pi_ambiguity && (noise() & 1U) != 0) measured.phase_rad += kPi;
   if (effects.quantization) quantize(hardware, measured);
   measured.phase_rad = wrap_to_two_pi(measured.phase_rad);
-  measured.rssi_dbm = std::max(measured.rssi_dbm, kLeastRssi);
+  measured.rssi_dbm = std::max(measured.rssi_dbm, kMinRssi);
   return measured;
 }
 

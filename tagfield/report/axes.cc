@@ -90,8 +90,8 @@ void draw_x_grid(Svg& svg, const Axes& axes, const std::string& title) {
 
 double row_height(std::size_t rows) {
   constexpr double kLeast = 26.0;
-  constexpr double kLeastTogether = 150.0;
-  return std::max(kLeast, kLeastTogether / static_cast<double>(std::max<std::size_t>(rows, 1)));
+  constexpr double kMinTogether = 150.0;
+  return std::max(kLeast, kMinTogether / static_cast<double>(std::max<std::size_t>(rows, 1)));
 }
 
 double place_on(const Scale& scale, double value) {

@@ -94,7 +94,7 @@ void draw_cloud(Figure& figure, const RunComparison& comparison,
   draw_axes(figure.svg, axes, "error in " + shortened(comparison.runs[0].name, 30) + " [mm]",
             "error in " + shortened(comparison.runs[1].name, 30) + " [mm]");
   add_line(figure.svg, {axes.x.from, axes.y.from}, {axes.x.to, axes.y.to}, styled("rule"));
-  const std::size_t step = thinning(pairs.size(), kMostMarks);
+  const std::size_t step = thinning(pairs.size(), kMaxMarks);
   for (std::size_t i = 0; i < pairs.size(); i += step) {
     const ErrorPair& pair = pairs[i];
     add_circle(
@@ -112,7 +112,7 @@ Figure errors_figure(const RunComparison& comparison) {
     figure.missing = "no tag has a known error in both runs.";
     return figure;
   }
-  if (pairs.size() <= kMostRows) {
+  if (pairs.size() <= kMaxRows) {
     draw_pairs(figure, comparison, pairs);
     figure.caption = "The error of each tag that both runs located, a row a tag.";
   } else {
@@ -184,14 +184,14 @@ Figure places_figure(const RunComparison& comparison, const std::vector<Silhouet
   draw_map(figure.svg, map, geometry);
   begin_clip(figure.svg, map.id + "-tags", {map.axes.x.from, map.axes.y.to},
              {map.axes.x.to - map.axes.x.from, map.axes.y.from - map.axes.y.to});
-  const std::size_t step = thinning(comparison.tags.size(), kMostMarks / 3);
+  const std::size_t step = thinning(comparison.tags.size(), kMaxMarks / 3);
   for (std::size_t i = 0; i < comparison.tags.size(); i += step) {
     draw_compared_tag(figure.svg, map, comparison, comparison.tags[i]);
   }
   end_clip(figure.svg);
   for (const ComparedTag& tag : comparison.tags) {
     const auto place = tag.truth_m ? tag.truth_m : tag.runs[0].position_m;
-    if (place && comparison.tags.size() <= kMostRows) {
+    if (place && comparison.tags.size() <= kMaxRows) {
       take_place(map, on_map(map, *place), 7.0);
       draw_label(figure.svg, map, on_map(map, *place), shortened(tag.tag, 12));
     }

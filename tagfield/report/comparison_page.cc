@@ -145,7 +145,7 @@ std::string tags_table(const RunComparison& comparison) {
       "<th scope=\"col\">First<br>reads</th><th scope=\"col\">Second<br>reads</th>"
       "<th scope=\"col\" class=\"words\">First</th><th scope=\"col\" class=\"words\">Second</th>"
       "</tr></thead>\n<tbody>\n";
-  const std::size_t most = std::min(comparison.tags.size(), kMostTableRows);
+  const std::size_t most = std::min(comparison.tags.size(), kMaxTableRows);
   for (std::size_t i = 0; i < most; ++i) html += tag_cells(comparison.tags[i]);
   html += "</tbody></table></div>\n";
   if (most < comparison.tags.size()) {

@@ -14,10 +14,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string power_field(double db) {
-  return db < kLeastPower_db ? "" : fmt::format("{:.2f}", db + 0.0);
+  return db < kMinPower_db ? "" : fmt::format("{:.2f}", db + 0.0);
 }
 
-Json power(double db) { return db < kLeastPower_db ? Json(nullptr) : Json(db); }
+Json power(double db) { return db < kMinPower_db ? Json(nullptr) : Json(db); }
 
 std::string cell_fields(const CoverageCell& cell) {
   return fmt::format("{},{},{},{:.3f}", power_field(cell.power_dbm), power_field(cell.reply_dbm),
@@ -52,8 +52,8 @@ Json to_json(const CoverageLayer& layer) {
   double probability = 0.0;
   for (const CoverageCell& cell : layer.cells) {
     probability += cell.probability;
-    if (cell.margin_db < kLeastPower_db) continue;
-    least = most < kLeastPower_db ? cell.margin_db : std::min(least, cell.margin_db);
+    if (cell.margin_db < kMinPower_db) continue;
+    least = most < kMinPower_db ? cell.margin_db : std::min(least, cell.margin_db);
     most = std::max(most, cell.margin_db);
   }
   const auto count = static_cast<double>(std::max<std::size_t>(layer.cells.size(), 1));
@@ -61,7 +61,7 @@ Json to_json(const CoverageLayer& layer) {
           {"file", coverage_file(layer)},
           {"share_read", share_read(layer)},
           {"mean_probability", probability / count},
-          {"min_margin_db", most < kLeastPower_db ? Json(nullptr) : Json(least)},
+          {"min_margin_db", most < kMinPower_db ? Json(nullptr) : Json(least)},
           {"max_margin_db", power(most)}};
 }
 

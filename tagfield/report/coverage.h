@@ -30,7 +30,7 @@ struct CoverageGrid {
 /// Value where no signal arrives [dB, dBm].
 inline constexpr double kNoPower_db = -400.0;
 /// Below this, no signal is considered to arrive.
-inline constexpr double kLeastPower_db = -250.0;
+inline constexpr double kMinPower_db = -250.0;
 /// Minimum probability for a tag to count as read.
 inline constexpr double kReadProbability = 0.5;
 

@@ -93,7 +93,7 @@ void end_map(Figure& figure, const MapView& map, const std::vector<Silhouette>& 
 std::vector<double> powers_of(const CoverageLayer& layer) {
   std::vector<double> powers;
   for (const CoverageCell& cell : layer.cells) {
-    if (cell.power_dbm >= kLeastPower_db) powers.push_back(cell.power_dbm);
+    if (cell.power_dbm >= kMinPower_db) powers.push_back(cell.power_dbm);
   }
   return powers;
 }
@@ -160,7 +160,7 @@ void draw_quantity(Figure& figure, const Coverage& coverage, const CoverageLayer
 }
 
 /// With more antennas than colours, they share colours.
-constexpr int kMostKinds = 100;
+constexpr int kMaxKinds = 100;
 
 void draw_best(Figure& figure, const Coverage& coverage, const CoverageLayer& layer,
                const std::vector<Silhouette>& top_view) {
@@ -168,7 +168,7 @@ void draw_best(Figure& figure, const Coverage& coverage, const CoverageLayer& la
   std::vector<std::string> words;
   double x = 2.0;
   double y = 2.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(coverage.antennas.size(), kMostKinds); ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(coverage.antennas.size(), kMaxKinds); ++i) {
     colors.push_back(color_of_kind(i));
     const std::string name = shortened(coverage.antennas[i].name, 18);
     const double width = 40.0 + text_width(name);
@@ -184,7 +184,7 @@ void draw_best(Figure& figure, const Coverage& coverage, const CoverageLayer& la
   MapView map = begin_map(figure, coverage, y + 24.0);
   const OccupancyGrid cells = numbered(coverage.grid, layer, [](const CoverageCell& cell) {
     const bool is_read = cell.antenna >= 0 && cell.probability >= kReadProbability;
-    return is_read ? static_cast<std::int8_t>(cell.antenna % kMostKinds) : kNotDrawn;
+    return is_read ? static_cast<std::int8_t>(cell.antenna % kMaxKinds) : kNotDrawn;
   });
   draw_cells(figure.svg, map, cells, colors, words);
   end_map(figure, map, top_view);
@@ -213,7 +213,7 @@ bool is_within(const MapView& map, const Eigen::Vector3d& p) {
 }
 
 void draw_tag_names(Svg& svg, MapView& map, const Coverage& coverage) {
-  if (coverage.tags.size() > kMostRows) return;
+  if (coverage.tags.size() > kMaxRows) return;
   for (const TagCoverage& tag : coverage.tags) {
     if (is_within(map, tag.p_WT)) {
       draw_label(svg, map, on_map(map, tag.p_WT), shortened(tag.id, 12));
@@ -221,7 +221,7 @@ void draw_tag_names(Svg& svg, MapView& map, const Coverage& coverage) {
   }
 }
 
-constexpr std::size_t kMostDataCells = 5000;  ///< Maximum embedded in a page as text.
+constexpr std::size_t kMaxDataCells = 5000;  ///< Maximum embedded in a page as text.
 
 std::string data_of_cells(const Coverage& coverage, const CoverageLayer& layer) {
   const CoverageGrid& grid = coverage.grid;
@@ -277,7 +277,7 @@ Figure coverage_figure(const Coverage& coverage, const CoverageLayer& layer,
   } else {
     draw_quantity(figure, coverage, layer, quantity, top_view);
   }
-  if (layer.cells.size() <= kMostDataCells) figure.data = data_of_cells(coverage, layer);
+  if (layer.cells.size() <= kMaxDataCells) figure.data = data_of_cells(coverage, layer);
   return figure;
 }
 
@@ -297,7 +297,7 @@ Figure coverage_tags_figure(const Coverage& coverage, const std::vector<Silhouet
                                {Symbol::kCross, "cover-never", "never read"}});
   MapView map = begin_map(figure, coverage, top);
   end_map(figure, map, top_view);
-  const std::size_t step = thinning(coverage.tags.size(), kMostMarks);
+  const std::size_t step = thinning(coverage.tags.size(), kMaxMarks);
   for (std::size_t i = 0; i < coverage.tags.size(); i += step) {
     const TagCoverage& tag = coverage.tags[i];
     if (!is_within(map, tag.p_WT)) continue;

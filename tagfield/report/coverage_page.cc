@@ -15,7 +15,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostTags = 500;
+constexpr std::size_t kMaxTags = 500;
 
 std::string big_number(const std::string& name, const std::string& value, bool lead = false) {
   return fmt::format("<div{}><dt>{}</dt><dd>{}</dd></div>\n", lead ? " class=\"lead\"" : "",
@@ -76,7 +76,7 @@ std::string facts(const Coverage& coverage) {
 }
 
 std::string number_cell(double db) {
-  if (db < kLeastPower_db) return "<td>–</td>";
+  if (db < kMinPower_db) return "<td>–</td>";
   return db < 0.0 ? fmt::format("<td>−{:.1f}</td>", -db) : fmt::format("<td>{:.1f}</td>", db);
 }
 
@@ -114,7 +114,7 @@ std::string table(const Coverage& coverage) {
       "[m]</th>"
       "</tr></thead>\n<tbody>\n";
   const std::vector<const TagCoverage*> tags = sorted(coverage);
-  const std::size_t shown = std::min(tags.size(), kMostTags);
+  const std::size_t shown = std::min(tags.size(), kMaxTags);
   for (std::size_t i = 0; i < shown; ++i) html += row(coverage, *tags[i]);
   html += "</tbody></table></div>\n";
   if (shown < tags.size()) {

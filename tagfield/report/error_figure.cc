@@ -16,9 +16,9 @@ constexpr double kTagNameWidth = 122.0;
 constexpr double kErrorTop = 30.0;
 constexpr double kBottom = 48.0;
 constexpr double kValueRoom = 46.0;
-constexpr double kGreatSpread = 12.0;   ///< Ratio of the largest error to the median.
-constexpr double kLeastError = 0.01;    ///< [mm] Smaller values are drawn here.
-constexpr std::size_t kMostSpots = 60;  ///< Of one row.
+constexpr double kGreatSpread = 12.0;  ///< Ratio of the largest error to the median.
+constexpr double kMinError = 0.01;     ///< [mm] Smaller values are drawn here.
+constexpr std::size_t kMaxSpots = 60;  ///< Of one row.
 
 std::string millimetres(double error_m) {
   return fmt::format("{:.{}f}", error_m * 1e3, error_m < 0.00995 ? 1 : 0);
@@ -33,7 +33,7 @@ bool is_spread(const ErrorStatistics& errors) {
 Axes row_axes(const ErrorStatistics& errors, std::size_t rows, bool several) {
   Axes axes;
   axes.x = several && is_spread(errors)
-               ? logarithmic_scale(std::max(1e3 * errors.min, kLeastError), 1e3 * errors.max)
+               ? logarithmic_scale(std::max(1e3 * errors.min, kMinError), 1e3 * errors.max)
                : round_scale(0.0, 1e3 * errors.max, 5);
   axes.x.from = kTagNameWidth;
   axes.x.to = kDrawingWidth - kValueRoom;
@@ -75,7 +75,7 @@ void draw_box(Svg& svg, const Axes& axes, const TagRow& row, double y) {
       svg, {at(0.25), y - 8.5}, {std::max(at(0.75) - at(0.25), 1.0), 17.0}, styled("box"),
       fmt::format("{}: median {}, greatest {}", clean_text(row.tag),
                   spoken_length(errors[errors.size() / 2]), spoken_length(errors.back())));
-  const std::size_t step = thinning(errors.size(), kMostSpots);
+  const std::size_t step = thinning(errors.size(), kMaxSpots);
   for (std::size_t i = 0; i < errors.size(); i += step) {
     add_circle(svg, {place_on(axes.x, 1e3 * errors[i]), y}, 2.5, styled("spot"));
   }
@@ -143,7 +143,7 @@ std::vector<double> class_bounds(double low, double high) {
 }
 
 void draw_histogram(Figure& figure, std::vector<double> errors) {
-  for (double& error : errors) error = std::max(1e3 * error, kLeastError);
+  for (double& error : errors) error = std::max(1e3 * error, kMinError);
   const std::vector<double> bounds = class_bounds(errors.front(), errors.back());
   std::vector<std::size_t> counts(bounds.size() - 1);
   for (const double error : errors) {
@@ -181,7 +181,7 @@ Figure error_figure(const RunFiles& run) {
     return figure;
   }
   const std::vector<TagRow> rows = rows_by_tag(run.summary);
-  if (rows.size() <= kMostRows) {
+  if (rows.size() <= kMaxRows) {
     draw_rows(figure, rows, *errors, run.summary.seeds.size());
     return figure;
   }

@@ -22,8 +22,8 @@ struct Figure {
   std::string data{};   ///< The data as CSV with a header; "" if not available.
 };
 
-inline constexpr std::size_t kMostRows = 40;     ///< Tags shown individually, with their names.
-inline constexpr std::size_t kMostMarks = 1500;  ///< Points in one figure.
+inline constexpr std::size_t kMaxRows = 40;     ///< Tags shown individually, with their names.
+inline constexpr std::size_t kMaxMarks = 1500;  ///< Points in one figure.
 
 /// Fig. 9: path, true tags and estimates over the world from above.
 Figure map_figure(const RunFiles& run);

@@ -30,7 +30,7 @@ std::string spoken_strength(const TagStrength& strength) {
 void draw_links(Svg& svg, MapView& map, const Place& antenna,
                 const std::vector<TagStrength>& strengths) {
   const auto [low, high] = color_range(all_values(strengths));
-  const std::size_t step = thinning(strengths.size(), kMostMarks / 2);
+  const std::size_t step = thinning(strengths.size(), kMaxMarks / 2);
   for (std::size_t i = 0; i < strengths.size(); i += step) {
     if (!strengths[i].p_WT) continue;
     const double strength = strength_of(strengths[i].mean_dbm, low, high);
@@ -44,7 +44,7 @@ void draw_links(Svg& svg, MapView& map, const Place& antenna,
 }
 
 void draw_names(Svg& svg, MapView& map, const std::vector<TagStrength>& strengths) {
-  if (strengths.size() > kMostRows) return;
+  if (strengths.size() > kMaxRows) return;
   for (const TagStrength& strength : strengths) {
     if (strength.p_WT) {
       draw_label(svg, map, on_map(map, *strength.p_WT), shortened(strength.tag, 12));
@@ -66,7 +66,7 @@ std::string caption_of(const std::vector<TagStrength>& strengths, const std::str
       antenna, counted(strengths.size(), "tag"));
   const std::size_t lost = count_without_place(strengths);
   if (lost > 0) text += fmt::format(" {} of unknown position left out.", counted(lost, "tag"));
-  const std::size_t step = thinning(strengths.size(), kMostMarks / 2);
+  const std::size_t step = thinning(strengths.size(), kMaxMarks / 2);
   if (step > 1) text += fmt::format(" One tag in {} is drawn.", step);
   return text;
 }

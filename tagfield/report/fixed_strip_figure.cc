@@ -63,7 +63,7 @@ Figure fixed_strip_figure(const RunFiles& run) {
   const AntennaTrack* track = fixed_track(run, figure.missing);
   if (track == nullptr) return figure;
   const std::vector<TagStrength> all = strengths_at(run, *track);
-  const std::vector<TagStrength> shown = strongest(all, kMostRows);
+  const std::vector<TagStrength> shown = strongest(all, kMaxRows);
   const Axes axes = strip_axes(shown);
   const auto colors = color_range(all_values(shown));
   figure.svg.height = axes.y.from + 48.0;
@@ -72,7 +72,7 @@ Figure fixed_strip_figure(const RunFiles& run) {
     const double y = kStripTop + row_height(shown.size()) * (static_cast<double>(i) + 0.5) + 2.0;
     add_text(figure.svg, {kStripNameWidth - 10.0, y + 5.0}, shortened(shown[i].tag, 10),
              Anchor::kEnd);
-    draw_strip(figure.svg, axes, shown[i], y, colors, kMostMarks / shown.size());
+    draw_strip(figure.svg, axes, shown[i], y, colors, kMaxMarks / shown.size());
   }
   figure.caption =
       "Every value received from each tag: a spot for each that occurs, the larger "
@@ -81,7 +81,7 @@ Figure fixed_strip_figure(const RunFiles& run) {
   for (const TagStrength& strength : shown) {
     std::map<double, std::size_t> counts;
     for (const double value : strength.rssi_dbm) ++counts[value];
-    const std::size_t step = thinning(counts.size(), kMostMarks / shown.size());
+    const std::size_t step = thinning(counts.size(), kMaxMarks / shown.size());
     std::size_t index = 0;
     for (const auto& [value, count] : counts) {
       if (index++ % step == 0) add_data(figure.data, strength.tag, value, count);

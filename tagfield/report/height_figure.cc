@@ -10,7 +10,7 @@ namespace {
 
 std::vector<Place> curve_of(const Axes& axes, const Trajectory& path, double start_s) {
   std::vector<Place> places;
-  const std::size_t step = thinning(path.size(), kMostMarks);
+  const std::size_t step = thinning(path.size(), kMaxMarks);
   for (std::size_t i = 0; i < path.size(); i += step) {
     places.push_back(
         place_in(axes, to_seconds(path[i].stamp) - start_s, path[i].X_WB.translation.z()));
@@ -52,7 +52,7 @@ Figure height_figure(const RunFiles& run) {
   add_polyline(figure.svg, curve_of(axes, track->best(), start), styled("path"));
   const Trajectory& path = track->best();
   figure.data = "time_s,height_m\n";
-  for (std::size_t i = 0; i < path.size(); i += thinning(path.size(), kMostMarks)) {
+  for (std::size_t i = 0; i < path.size(); i += thinning(path.size(), kMaxMarks)) {
     add_data(figure.data, to_seconds(path[i].stamp) - start, path[i].X_WB.translation.z());
   }
   figure.caption = "Height of " + clean_text(track->antenna) +

@@ -60,7 +60,7 @@ HoppingReads hopping_reads(const Shown& shown) {
   const auto of_tag = samples.find(shown.tag);
   if (of_tag == samples.end() || of_tag->second.empty()) return joined;
   const std::vector<PhaseSample>& all = of_tag->second.begin()->second;
-  const std::size_t step = thinning(all.size(), kMostMarks);
+  const std::size_t step = thinning(all.size(), kMaxMarks);
   for (std::size_t i = 0; i < all.size(); i += step) joined.samples.push_back(all[i]);
   return joined;
 }
@@ -225,7 +225,7 @@ Figure carriers_figure(const Shown& shown) {
   figure.svg.height = 358.0;
   draw_axes(figure.svg, axes, "carrier [MHz]", "phase [rad]");
   figure.data = "time_s,frequency_hz,phase_rad\n";
-  const std::size_t step = thinning(reads.size(), kMostMarks);
+  const std::size_t step = thinning(reads.size(), kMaxMarks);
   for (std::size_t i = 0; i < reads.size(); i += step) {
     const double phase = wrap_to_two_pi(reads[i]->phase_rad);
     add_circle(figure.svg, place_in(axes, 1e-6 * reads[i]->frequency_hz, phase), 2.4,

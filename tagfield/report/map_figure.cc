@@ -11,8 +11,8 @@ namespace {
 using Outcomes = std::vector<const TagOutcome*>;
 
 constexpr double kSeenPoseError = 0.005;  ///< [m] Two paths closer than this are drawn as one.
-constexpr std::size_t kMostCandidates = 4;
-constexpr std::size_t kMostWaypoints = 300;  ///< Of one moving tag.
+constexpr std::size_t kMaxCandidates = 4;
+constexpr std::size_t kMaxWaypoints = 300;  ///< Of one moving tag.
 
 void extend(Extent& extent, const Trajectory& trajectory) {
   for (const StampedPose& pose : trajectory) extent.extend(pose.X_WB.translation.head<2>());
@@ -106,7 +106,7 @@ void draw_antennas(Svg& svg, MapView& map, const RunFiles& run, bool labelled) {
 
 void draw_moved_tag(Svg& svg, const MapView& map, const RunFiles& run, const TagOutcome& outcome) {
   const std::vector<TagPosition>& way = way_of(run, outcome);
-  const std::size_t step = thinning(way.size(), kMostWaypoints);
+  const std::size_t step = thinning(way.size(), kMaxWaypoints);
   std::vector<Place> places;
   for (std::size_t i = 0; i < way.size(); i += step) {
     places.push_back(on_map(map, way[i].p_WT));
@@ -123,7 +123,7 @@ void draw_truth(Svg& svg, const MapView& map, const TagOutcome& outcome) {
 }
 
 void draw_candidates(Svg& svg, const MapView& map, const TagEstimate& estimate) {
-  const std::size_t shown = std::min(estimate.candidates.size(), kMostCandidates);
+  const std::size_t shown = std::min(estimate.candidates.size(), kMaxCandidates);
   for (std::size_t i = 0; i < shown; ++i) {
     const Candidate& candidate = estimate.candidates[i];
     if (!is_shown(map, candidate.p_WT)) continue;
@@ -150,7 +150,7 @@ std::optional<Eigen::Vector3d> label_place(const RunFiles& run, const TagOutcome
 void draw_tags(Svg& svg, MapView& map, const RunFiles& run, const Outcomes& outcomes) {
   begin_clip(svg, map.id + "-tags", {map.axes.x.from, map.axes.y.to},
              {map.axes.x.to - map.axes.x.from, map.axes.y.from - map.axes.y.to});
-  const std::size_t step = thinning(outcomes.size(), kMostMarks / 2);
+  const std::size_t step = thinning(outcomes.size(), kMaxMarks / 2);
   for (std::size_t i = 0; i < outcomes.size(); i += step) {
     draw_moved_tag(svg, map, run, *outcomes[i]);
     draw_truth(svg, map, *outcomes[i]);
@@ -164,7 +164,7 @@ void draw_tags(Svg& svg, MapView& map, const RunFiles& run, const Outcomes& outc
 }
 
 void draw_names(Svg& svg, MapView& map, const RunFiles& run, const Outcomes& outcomes) {
-  if (outcomes.size() > kMostRows) return;
+  if (outcomes.size() > kMaxRows) return;
   for (const TagOutcome* outcome : outcomes) {
     const auto place = label_place(run, *outcome);
     if (place && is_shown(map, *place)) {
@@ -218,7 +218,7 @@ std::string caption_of(const RunFiles& run, const Outcomes& outcomes, const Find
   if (run.summary.seeds.size() > 1) {
     text += fmt::format(" Shown is the first of {} seeds.", run.summary.seeds.size());
   }
-  const std::size_t step = thinning(outcomes.size(), kMostMarks / 2);
+  const std::size_t step = thinning(outcomes.size(), kMaxMarks / 2);
   if (step > 1) text += fmt::format(" One tag in {} is drawn.", step);
   return text;
 }
@@ -227,13 +227,13 @@ std::string data_of(const RunFiles& run, const Outcomes& outcomes) {
   std::string csv = "what,name,time_s,x_m,y_m,z_m\n";
   for (const AntennaTrack& track : run.tracks) {
     const Trajectory& path = track.best();
-    const std::size_t step = track.moving ? thinning(path.size(), kMostMarks) : path.size();
+    const std::size_t step = track.moving ? thinning(path.size(), kMaxMarks) : path.size();
     for (std::size_t i = 0; i < path.size(); i += step) {
       const Eigen::Vector3d& p = path[i].X_WB.translation;
       add_data(csv, "antenna", track.antenna, to_seconds(path[i].stamp), p.x(), p.y(), p.z());
     }
   }
-  const std::size_t step = thinning(outcomes.size(), kMostMarks / 2);
+  const std::size_t step = thinning(outcomes.size(), kMaxMarks / 2);
   for (std::size_t i = 0; i < outcomes.size(); i += step) {
     const TagEstimate& estimate = outcomes[i]->estimate;
     if (const auto& p = outcomes[i]->truth_m) {
@@ -265,7 +265,7 @@ Figure map_figure(const RunFiles& run) {
   draw_map(figure.svg, map, run.top_view);
   draw_paths(figure.svg, map, run);
   draw_tags(figure.svg, map, run, outcomes);
-  draw_antennas(figure.svg, map, run, outcomes.size() <= kMostRows);
+  draw_antennas(figure.svg, map, run, outcomes.size() <= kMaxRows);
   draw_names(figure.svg, map, run, outcomes);
   figure.caption = caption_of(run, outcomes, found);
   figure.data = data_of(run, outcomes);

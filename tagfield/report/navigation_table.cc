@@ -61,16 +61,16 @@ std::string pose_rows(const NavigationSummary& navigation) {
 
 /// Rows for the first few goals, each with its reason.
 std::string unreached_rows(const NavigationSummary& navigation) {
-  constexpr std::size_t kMostRows = 10;
+  constexpr std::size_t kMaxRows = 10;
   const auto& goals = navigation.goals_unreached;
   std::string rows;
-  for (std::size_t i = 0; i < std::min(goals.size(), kMostRows); ++i) {
+  for (std::size_t i = 0; i < std::min(goals.size(), kMaxRows); ++i) {
     rows +=
         row("Not reached", fmt::format("({:.2f}, {:.2f}) m", goals[i].goal.x(), goals[i].goal.y()),
             fmt::format("with seed {}: {}", goals[i].seed, goals[i].reason));
   }
-  if (goals.size() <= kMostRows) return rows;
-  return rows + row("Not reached", fmt::format("{} more", grouped(goals.size() - kMostRows)),
+  if (goals.size() <= kMaxRows) return rows;
+  return rows + row("Not reached", fmt::format("{} more", grouped(goals.size() - kMaxRows)),
                     "in summary.json");
 }
 

@@ -15,8 +15,8 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostWarnings = 50;
-constexpr std::size_t kMostSeeds = 6;
+constexpr std::size_t kMaxWarnings = 50;
+constexpr std::size_t kMaxSeeds = 6;
 
 std::string paragraph(const std::string& text) { return fmt::format("<p>{}</p>\n", escaped(text)); }
 
@@ -68,7 +68,7 @@ std::string warnings_note(const std::vector<std::string>& warnings) {
   std::string html = "<div class=\"note\"><p><strong>" +
                      std::string(warnings.size() == 1 ? "A warning" : "Warnings") +
                      "</strong></p><ul>\n";
-  const std::size_t shown = std::min(warnings.size(), kMostWarnings);
+  const std::size_t shown = std::min(warnings.size(), kMaxWarnings);
   for (std::size_t i = 0; i < shown; ++i) html += "<li>" + escaped(warnings[i]) + "</li>\n";
   if (shown < warnings.size()) {
     html += fmt::format("<li>and {} more in summary.json</li>\n", warnings.size() - shown);
@@ -113,7 +113,7 @@ std::string spoken_pose(const std::string& pose) {
 
 std::string spoken_seeds(const std::vector<std::uint64_t>& seeds) {
   if (seeds.empty()) return "none: the reads came from outside";
-  const std::size_t shown = seeds.size() <= kMostSeeds ? seeds.size() : 1;
+  const std::size_t shown = seeds.size() <= kMaxSeeds ? seeds.size() : 1;
   std::string text = fmt::format(
       "{}", fmt::join(seeds.begin(), seeds.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
   if (shown < seeds.size()) text += fmt::format(" … {}", seeds.back());

@@ -17,7 +17,7 @@ namespace tagfield {
 namespace {
 
 constexpr double kPassingNames = 122.0;
-constexpr std::size_t kMostGates = kSeriesColors;
+constexpr std::size_t kMaxGates = kSeriesColors;
 
 /// From the first read to the last.
 using ReadSpan = std::pair<Time, Time>;
@@ -141,8 +141,8 @@ Figure passings_figure(const std::vector<TagRead>& reads, const std::vector<Pass
     figure.missing = "no tag was tracked past an antenna at rest or the line.";
     return figure;
   }
-  const std::size_t gates = std::min(orders.size(), kMostGates);
-  const std::size_t shown = std::min(tags.size(), kMostRows);
+  const std::size_t gates = std::min(orders.size(), kMaxGates);
+  const std::size_t shown = std::min(tags.size(), kMaxRows);
   const std::map<std::string, ReadSpan> spans = spans_of(reads);
   std::vector<LegendEntry> legend = {{Symbol::kSquare, "band", "read"}};
   for (std::size_t i = 0; i < gates; ++i) {
@@ -180,7 +180,7 @@ std::string passings_table(const std::vector<PassingOrder>& orders) {
       "<h2>Order</h2>\n<div class=\"table\" role=\"region\" aria-label=\"Order\" "
       "tabindex=\"0\"><table>\n" +
       head_of_passings(orders);
-  const std::size_t shown = std::min(tags.size(), kMostTableRows);
+  const std::size_t shown = std::min(tags.size(), kMaxTableRows);
   for (std::size_t i = 0; i < shown; ++i) {
     html += "<tr><th scope=\"row\" title=\"" + escaped(tags[i]) + "\"><bdi>" +
             escaped(shortened(tags[i], 28)) + "</bdi></th>";

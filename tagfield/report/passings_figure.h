@@ -12,7 +12,7 @@
 namespace tagfield {
 
 /// One row per tag, in the order of the first of `orders`: a bar from its first to its last read,
-/// and a mark at each passing. Only the first `kMostRows` tags.
+/// and a mark at each passing. Only the first `kMaxRows` tags.
 Figure passings_figure(const std::vector<TagRead>& reads, const std::vector<PassingOrder>& orders);
 
 /// One row per tag: the time of each passing, with its standard deviation, and the probability that

@@ -37,7 +37,7 @@ std::pair<double, double> rssi_range(const std::vector<PlacedRead>& reads) {
 
 void draw_reads(Svg& svg, const MapView& map, const std::vector<PlacedRead>& reads) {
   const auto [low, high] = rssi_range(reads);
-  const std::size_t step = thinning(reads.size(), kMostMarks);
+  const std::size_t step = thinning(reads.size(), kMaxMarks);
   for (std::size_t i = 0; i < reads.size(); i += step) {
     const TagRead& read = *reads[i].read;
     const double strength = strength_of(read.rssi_dbm, low, high);
@@ -100,7 +100,7 @@ Figure path_rssi_figure(const RunFiles& run) {
   draw_reads(figure.svg, map, reads);
   draw_tag(figure.svg, map, outcome);
   figure.data = "time_s,x_m,y_m,rssi_dbm\n";
-  for (std::size_t i = 0; i < reads.size(); i += thinning(reads.size(), kMostMarks)) {
+  for (std::size_t i = 0; i < reads.size(); i += thinning(reads.size(), kMaxMarks)) {
     add_data(figure.data, to_seconds(reads[i].read->stamp), reads[i].p_WA.x(), reads[i].p_WA.y(),
              reads[i].read->rssi_dbm);
   }
@@ -109,7 +109,7 @@ Figure path_rssi_figure(const RunFiles& run) {
       "RSSI of {}'s replies where {} received them, over {}; the colours span the middle 90 % of "
       "the values. Where only the thin line is, it received none.",
       shortened(tag, 32), shortened(track->antenna, 32), counted(reads.size(), "read"));
-  const std::size_t step = thinning(reads.size(), kMostMarks);
+  const std::size_t step = thinning(reads.size(), kMaxMarks);
   if (step > 1) figure.caption += fmt::format(" One read in {} is drawn.", step);
   return figure;
 }

@@ -14,7 +14,7 @@ namespace tagfield {
 namespace {
 
 constexpr double kPhaseTop = 58.0;
-constexpr std::size_t kMostRules = 40;
+constexpr std::size_t kMaxRules = 40;
 constexpr std::size_t kFewReads =
     8;  ///< Shorter segments, as at the limit of the range, are only clutter.
 
@@ -111,18 +111,18 @@ Scale time_scale(const std::vector<Segment>& segments) {
 }
 
 void draw_starts(Svg& svg, const Axes& axes, const std::vector<Segment>& segments) {
-  if (segments.size() > kMostRules) return;
+  if (segments.size() > kMaxRules) return;
   for (std::size_t i = 1; i < segments.size(); ++i) {
     const double x = place_on(axes.x, segments[i].front().time_s);
     add_line(svg, {x, axes.y.from}, {x, axes.y.to}, styled("rule"));
   }
 }
 
-/// Draws one property of the points as dots, at most `kMostMarks` of them over all segments.
+/// Draws one property of the points as dots, at most `kMaxMarks` of them over all segments.
 template <typename Property>
 void draw_dots(Svg& svg, const Axes& axes, const std::vector<Segment>& segments,
                Property property) {
-  const std::size_t step = thinning(size_of(segments), kMostMarks);
+  const std::size_t step = thinning(size_of(segments), kMaxMarks);
   for (const Segment& segment : segments) {
     for (std::size_t i = 0; i < segment.size(); i += step) {
       add_circle(svg, place_in(axes, segment[i].time_s, property(segment[i])), 1.9,
@@ -132,7 +132,7 @@ void draw_dots(Svg& svg, const Axes& axes, const std::vector<Segment>& segments,
 }
 
 void draw_truth(Svg& svg, const Axes& axes, const std::vector<Segment>& segments) {
-  const std::size_t step = thinning(size_of(segments), kMostMarks);
+  const std::size_t step = thinning(size_of(segments), kMaxMarks);
   for (const Segment& segment : segments) {
     std::vector<Place> places;
     for (std::size_t i = 0; i < segment.size(); i += step) {
@@ -199,7 +199,7 @@ std::string caption_of(const std::vector<Segment>& segments, std::size_t left_ou
     text +=
         " The true change is shifted to agree with each segment on average; the difference between "
         "the two is shown below.";
-  const std::size_t step = thinning(size_of(segments), kMostMarks);
+  const std::size_t step = thinning(size_of(segments), kMaxMarks);
   if (step > 1) text += fmt::format(" One read in {} is drawn.", step);
   return text;
 }
@@ -224,7 +224,7 @@ Figure phase_figure(const RunFiles& run) {
   figure.title += " of " + shortened(tag, 24);
   draw_segments(figure.svg, segments, truth_known);
   figure.data = "segment,time_s,distance_m,true_m\n";
-  const std::size_t step = thinning(size_of(segments), kMostMarks);
+  const std::size_t step = thinning(size_of(segments), kMaxMarks);
   for (std::size_t k = 0; k < segments.size(); ++k) {
     for (std::size_t i = 0; i < segments[k].size(); i += step) {
       const PhasePoint& point = segments[k][i];

@@ -14,8 +14,8 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostMaps = 4;
-constexpr std::size_t kMostCircles = 6000;
+constexpr std::size_t kMaxMaps = 4;
+constexpr std::size_t kMaxCircles = 6000;
 
 /// Positions between two heights.
 struct Level {
@@ -33,11 +33,11 @@ std::vector<Level> levels_of(const AntennaPlan& plan) {
     if (levels.empty() || z > levels.back().high_m + 0.05) levels.push_back({z, z, {}});
     levels.back().high_m = z;
   }
-  if (levels.size() > kMostMaps) {
+  if (levels.size() > kMaxMaps) {
     const double low = heights.front();
-    const double step = (heights.back() - low) / static_cast<double>(kMostMaps);
+    const double step = (heights.back() - low) / static_cast<double>(kMaxMaps);
     levels.clear();
-    for (std::size_t i = 0; i < kMostMaps; ++i) {
+    for (std::size_t i = 0; i < kMaxMaps; ++i) {
       const auto number = static_cast<double>(i);
       levels.push_back({low + number * step, low + (number + 1.0) * step, {}});
     }
@@ -130,7 +130,7 @@ Figure level_figure(const AntennaPlan& plan, const Level& level, std::size_t num
   draw_axes(figure.svg, map.axes, "x [m]", "y [m]");
   begin_clip(figure.svg, map.id + "-map", {map.axes.x.from, map.axes.y.to},
              {map.axes.x.to - map.axes.x.from, map.axes.y.from - map.axes.y.to});
-  const std::size_t step = thinning(level.places.size(), kMostCircles / kMostMaps);
+  const std::size_t step = thinning(level.places.size(), kMaxCircles / kMaxMaps);
   const double area = (map.axes.x.to - map.axes.x.from) * (map.axes.y.from - map.axes.y.to);
   const double crowd = static_cast<double>(std::max<std::size_t>(level.places.size() / step, 1));
   const double radius = std::clamp(0.32 * std::sqrt(area / crowd), 2.0, 7.0);

@@ -87,7 +87,7 @@ Axes panel_axes(const Panel& panel, double top) {
 /// Points of the curve. Of several successive values the largest is drawn, so that no peak is lost.
 std::vector<Place> places_of(const Axes& axes, const Course& course) {
   std::vector<Place> places;
-  const std::size_t step = thinning(course.values.size(), kMostMarks);
+  const std::size_t step = thinning(course.values.size(), kMaxMarks);
   for (std::size_t i = 0; i < course.values.size(); i += step) {
     const auto begin = course.values.begin() + static_cast<std::ptrdiff_t>(i);
     const auto count = std::min(step, course.values.size() - i);
@@ -147,7 +147,7 @@ std::string caption_of(const RunFiles& run, const Panel& panel) {
   }
   std::size_t step = 1;
   for (const Course& course : panel.courses) {
-    step = std::max(step, thinning(course.values.size(), kMostMarks));
+    step = std::max(step, thinning(course.values.size(), kMaxMarks));
   }
   if (step > 1) text += fmt::format(" Of every {} poses the worst is drawn.", step);
   return text;
@@ -157,7 +157,7 @@ std::string data_of(const Panel& position, const Panel& yaw) {
   std::string csv = "antenna,time_s,horizontal_mm,heading_deg\n";
   for (std::size_t k = 0; k < position.courses.size(); ++k) {
     const Course& course = position.courses[k];
-    const std::size_t step = thinning(course.values.size(), kMostMarks);
+    const std::size_t step = thinning(course.values.size(), kMaxMarks);
     for (std::size_t i = 0; i < course.values.size(); i += step) {
       add_data(csv, k + 1, course.times_s[i], course.values[i], yaw.courses[k].values[i]);
     }

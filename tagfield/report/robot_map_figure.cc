@@ -11,7 +11,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostCells = 1200;  ///< Along x or y; smaller cells are not visible.
+constexpr std::size_t kMaxCells = 1200;  ///< Along x or y; smaller cells are not visible.
 
 /// Extent of the known part of the map, and of the paths on it.
 Extent content_of(const OccupancyGrid& grid, const MappingWay& way) {
@@ -108,7 +108,7 @@ Figure robot_map_figure(const RunFiles& run) {
   }
   if (run.mapping_way.believed.empty()) figure.title = "Map given to the robot";
   const auto longer = static_cast<std::size_t>(std::max(run.map->width, run.map->height));
-  const std::size_t step = thinning(longer, kMostCells);
+  const std::size_t step = thinning(longer, kMaxCells);
   const double legend = draw_legend(figure.svg, legend_of(run.mapping_way));
   MapView map = make_map(figure.name, content, {}, legend);
   figure.svg.height = map_bottom(map);
@@ -119,7 +119,7 @@ Figure robot_map_figure(const RunFiles& run) {
   figure.data = "what,time_s,x_m,y_m\n";
   for (const auto& [name, path] : {std::pair("believed", &run.mapping_way.believed),
                                    std::pair("true", &run.mapping_way.truth)}) {
-    for (std::size_t i = 0; i < path->size(); i += thinning(path->size(), kMostMarks)) {
+    for (std::size_t i = 0; i < path->size(); i += thinning(path->size(), kMaxMarks)) {
       const StampedPose& pose = (*path)[i];
       add_data(figure.data, name, to_seconds(pose.stamp), pose.X_WB.translation.x(),
                pose.X_WB.translation.y());

@@ -65,20 +65,20 @@ std::map<std::string, std::vector<Place>> true_ways(const std::vector<TagTrack>&
   return ways;
 }
 
-constexpr std::size_t kMostSpeeds = 12;  ///< Tags with their own colours and names.
+constexpr std::size_t kMaxSpeeds = 12;  ///< Tags with their own colours and names.
 
 const std::vector<TrackPoint>* points_of(const TagTrack& tag) {
   if (tag.tracks.empty() || tag.tracks.front().points.empty()) return nullptr;
   return &tag.tracks.front().points;
 }
 
-/// The step by which all tracks are thinned to about 2 kMostMarks points in total.
+/// The step by which all tracks are thinned to about 2 kMaxMarks points in total.
 std::size_t thinning_of(const std::vector<TagTrack>& tracks) {
   std::size_t count = 0;
   for (const TagTrack& tag : tracks) {
     if (const auto* points = points_of(tag)) count += points->size();
   }
-  return thinning(count, 2 * kMostMarks);
+  return thinning(count, 2 * kMaxMarks);
 }
 
 std::string tracks_data(const std::vector<TagTrack>& tracks, std::size_t step) {
@@ -138,7 +138,7 @@ void draw_antennas_of_tracks(Svg& svg, const Axes& axes, const std::vector<Anten
     add_diamond(svg, place, 7.0, styled("ink"), clean_text(antenna));
     take_place(map, place, 8.0);
   }
-  if (places.size() > kMostRows) return;
+  if (places.size() > kMaxRows) return;
   for (const auto& [antenna, place] : places) {
     draw_label(svg, map, place, shortened(antenna, 18));
   }
@@ -193,7 +193,7 @@ Figure speeds_figure(const std::vector<TagTrack>& tracks) {
     return figure;
   }
   Svg& svg = figure.svg;
-  const bool named = followed.size() <= kMostSpeeds;
+  const bool named = followed.size() <= kMaxSpeeds;
   std::vector<LegendEntry> legend;
   for (std::size_t i = 0; named && i < followed.size(); ++i) {
     legend.push_back({Symbol::kLine, fmt::format("line{} tag{}", i % kSeriesColors, i),

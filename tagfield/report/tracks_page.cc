@@ -18,7 +18,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostNamed = 5;  ///< Tags named in a sentence.
+constexpr std::size_t kMaxNamed = 5;  ///< Tags named in a sentence.
 
 std::string tracks_header(const TracksShown& shown) {
   const TrackSummary& summary = *shown.summary;
@@ -167,7 +167,7 @@ std::string tracks_table(const TracksShown& shown) {
   }
   if (remarks) html += "<th scope=\"col\" class=\"words\">Remark</th>";
   html += "</tr></thead>\n<tbody>\n";
-  const std::size_t most = std::min({tracks.size(), outcomes.size(), kMostTableRows});
+  const std::size_t most = std::min({tracks.size(), outcomes.size(), kMaxTableRows});
   for (std::size_t i = 0; i < most; ++i) {
     html += track_row(tracks[i], outcomes[i], truth, remarks);
   }
@@ -183,7 +183,7 @@ std::string tracks_table(const TracksShown& shown) {
 
 std::string order_words(const PassingOrder& order) {
   std::string names;
-  const std::size_t shown = std::min(order.passings.size(), kMostNamed);
+  const std::size_t shown = std::min(order.passings.size(), kMaxNamed);
   for (std::size_t i = 0; i < shown; ++i) {
     names += (names.empty() ? "" : ", ") + clean_text(order.passings[i].tag);
   }

@@ -11,8 +11,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kMostPlace = 10.0;         ///< [m]
-constexpr double kMostTimeOffset = 3600.0;  ///< [s]
+constexpr double kMaxPlace = 10.0;         ///< [m]
+constexpr double kMaxTimeOffset = 3600.0;  ///< [s]
 
 CalibratedValue value_of(YamlMap map, double most) {
   CalibratedValue value;
@@ -48,13 +48,13 @@ AntennaCalibration antenna_of(YamlMap map) {
   antenna.noise_rad = map.number("noise_rad", 0.0, NumberRange::kNotNegative);
   if (map.has("phase_centre_m")) {
     YamlMap place(map.at("phase_centre_m"));
-    antenna.phase_centre_m[0] = value_of(YamlMap(place.at("x")), kMostPlace);
-    antenna.phase_centre_m[1] = value_of(YamlMap(place.at("y")), kMostPlace);
-    antenna.phase_centre_m[2] = value_of(YamlMap(place.at("z")), kMostPlace);
+    antenna.phase_centre_m[0] = value_of(YamlMap(place.at("x")), kMaxPlace);
+    antenna.phase_centre_m[1] = value_of(YamlMap(place.at("y")), kMaxPlace);
+    antenna.phase_centre_m[2] = value_of(YamlMap(place.at("z")), kMaxPlace);
     place.finish();
   }
   if (map.has("time_offset_s")) {
-    antenna.time_offset_s = value_of(YamlMap(map.at("time_offset_s")), kMostTimeOffset);
+    antenna.time_offset_s = value_of(YamlMap(map.at("time_offset_s")), kMaxTimeOffset);
   }
   antenna.tag_scatter_rad = map.number("tag_scatter_rad", 0.0, NumberRange::kNotNegative);
   for (const YamlValue& offset : map.list("offsets")) {

@@ -185,17 +185,17 @@ void require_epcs(const std::vector<TagSpec>& tags) {
 
 /// Requires that every tag's sensitivity is below the antennas' highest transmit power.
 void require_power_for_tags(const Scenario& scenario) {
-  double most_dbm = -std::numeric_limits<double>::infinity();
+  double max_dbm = -std::numeric_limits<double>::infinity();
   for (const AntennaSpec& antenna : scenario.antennas) {
     const std::optional<double> power_dbm = transmit_power_dbm(antenna.parameters);
     if (!power_dbm) return;
-    most_dbm = std::max(most_dbm, *power_dbm);
+    max_dbm = std::max(max_dbm, *power_dbm);
   }
   for (const TagSpec& tag : scenario.tags) {
-    if (!tag.model || tag.model->sensitivity_dbm < most_dbm) continue;
+    if (!tag.model || tag.model->sensitivity_dbm < max_dbm) continue;
     fail(tag.location, fmt::format("tag '{}': sensitivity_dbm must be below the antennas' "
                                    "transmit_power_dbm ({:g}), is {:g}",
-                                   tag.id, most_dbm, tag.model->sensitivity_dbm));
+                                   tag.id, max_dbm, tag.model->sensitivity_dbm));
   }
 }
 

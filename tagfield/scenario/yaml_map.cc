@@ -17,9 +17,9 @@ namespace tagfield {
 namespace {
 
 constexpr double kMost = 1e15;  // For any other number.
-constexpr std::size_t kMostYamlBytes = 16'000'000;
-constexpr std::size_t kMostKeys = 100'000;
-constexpr int kMostLevels = 100;  // Of nested lists and maps; a node may contain itself.
+constexpr std::size_t kMaxYamlBytes = 16'000'000;
+constexpr std::size_t kMaxKeys = 100'000;
+constexpr int kMaxLevels = 100;  // Of nested lists and maps; a node may contain itself.
 constexpr const char* kCommandLine = "--set";
 // Tag of YAML nodes that did not come from the file.
 constexpr const char* kFromCommandLine = "!set";
@@ -31,7 +31,7 @@ bool ends_in(const std::string& text, std::string_view end) {
 /// The maximum by the unit in the key: metres, but not siemens per metre.
 double most_of(const YamlValue& value) {
   const bool is_length = ends_in(value.path(), "_m") && !ends_in(value.path(), "_s_m");
-  return is_length ? kMostLength_m : kMost;
+  return is_length ? kMaxLength_m : kMost;
 }
 
 void require_in_range(const YamlValue& value, double number, NumberRange range) {
@@ -49,8 +49,8 @@ void require_in_range(const YamlValue& value, double number, NumberRange range) 
 
 /// Requires that all keys are text and unique.
 void require_unique_keys(const YamlValue& map) {
-  if (map.node().size() > kMostKeys) {
-    map.fail(fmt::format("has {} keys, expected at most {}", map.node().size(), kMostKeys));
+  if (map.node().size() > kMaxKeys) {
+    map.fail(fmt::format("has {} keys, expected at most {}", map.node().size(), kMaxKeys));
   }
   std::set<std::string> keys;
   for (const auto& entry : map.node()) {
@@ -110,7 +110,7 @@ std::vector<std::string> split_at_dots(std::string_view path) {
   fail({fmt::format("{} {}", kCommandLine, key_path), 0}, why);
 }
 
-void mark_as_from_command_line(YAML::Node node, int levels = kMostLevels) {
+void mark_as_from_command_line(YAML::Node node, int levels = kMaxLevels) {
   if (levels == 0) throw Error("contains itself, or nests lists and maps too deeply");
   node.SetTag(kFromCommandLine);
   if (node.IsSequence()) {
@@ -247,8 +247,8 @@ std::vector<double> YamlValue::lengths(std::size_t least, std::size_t most) cons
 }
 
 void YamlValue::require_length(double length_m) const {
-  if (std::abs(length_m) <= kMostLength_m) return;
-  fail(fmt::format("must be within ±{:g} m, is {:g}", kMostLength_m, length_m));
+  if (std::abs(length_m) <= kMaxLength_m) return;
+  fail(fmt::format("must be within ±{:g} m, is {:g}", kMaxLength_m, length_m));
 }
 
 YamlMap::YamlMap(YamlValue value) : self_(std::move(value)) {
@@ -319,7 +319,7 @@ void YamlMap::finish() const {
 }
 
 YAML::Node read_yaml(const std::string& path) {
-  return yaml_in(read_text_file(path, kMostYamlBytes), path);
+  return yaml_in(read_text_file(path, kMaxYamlBytes), path);
 }
 
 YAML::Node yaml_in(const std::string& text, const std::string& path) {

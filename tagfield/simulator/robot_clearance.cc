@@ -126,7 +126,7 @@ RobotClearance::RobotClearance(const Scene& scene, const RobotOutline& outline)
   std::vector<bool> solid;
   solid.reserve(grid_.cells.size());
   for (const std::int8_t cell : grid_.cells) solid.push_back(is_occupied(cell));
-  distances_ = distance_field(grid_, solid, kMostRoom);
+  distances_ = distance_field(grid_, solid, kMaxRoom);
 }
 
 void RobotClearance::add_edge(const Edge& edge) {

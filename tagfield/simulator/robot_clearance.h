@@ -37,7 +37,7 @@ class RobotClearance {
  public:
   /// Upper limits of distance() and room_at() [m].
   static constexpr double kMost = 1.0;
-  static constexpr double kMostRoom = 10.0;
+  static constexpr double kMaxRoom = 10.0;
 
   RobotClearance(const Scene& scene, const RobotOutline& outline);
 

@@ -13,8 +13,8 @@ GoalDriverSettings with_speed(GoalDriverSettings settings, double speed_m_s) {
 }
 
 /// Beliefs wider than this are useless: the driver keeps clear of walls by centimetres.
-constexpr double kMostSigma_m = 0.3;
-constexpr double kMostSigma_rad = 0.2;
+constexpr double kMaxSigma_m = 0.3;
+constexpr double kMaxSigma_rad = 0.2;
 
 /// While wandering, the robot avoids unseen obstacles within this radius [m], which is longer than
 /// a path.
@@ -41,8 +41,8 @@ std::vector<Eigen::Vector2d> occupied_beside(const OccupancyGrid& full, const Oc
 bool is_sure(const MonteCarloLocalizer& localizer, const PoseEstimate& estimate) {
   const Eigen::Vector3d variance = estimate.covariance.diagonal();
   return localizer.state() == Localization::kTracking &&
-         variance.head<2>().sum() <= kMostSigma_m * kMostSigma_m &&
-         variance.z() <= kMostSigma_rad * kMostSigma_rad;
+         variance.head<2>().sum() <= kMaxSigma_m * kMaxSigma_m &&
+         variance.z() <= kMaxSigma_rad * kMaxSigma_rad;
 }
 
 }  // namespace

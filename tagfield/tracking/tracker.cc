@@ -18,7 +18,7 @@ namespace tagfield {
 namespace {
 
 constexpr std::size_t kFewestReads = 12;
-constexpr std::size_t kMostHypotheses = 6;
+constexpr std::size_t kMaxHypotheses = 6;
 /// Hypotheses with a log-likelihood lower by more than this are dropped.
 constexpr double kHopeless = 60.0;
 /// Tracks within this log-likelihood of the best cannot be distinguished from it.
@@ -96,7 +96,7 @@ double beside_lane(const TrackingOptions& options, const Track& track) {
 
 /// The lane is applied here too, as it distinguishes mirror images: smoothing gradually forgets it.
 std::vector<Track> tracks_of(const Pass& pass, const TrackingOptions& options) {
-  const std::vector<LineHypothesis> hypotheses = search_lines(pass, options, kMostHypotheses);
+  const std::vector<LineHypothesis> hypotheses = search_lines(pass, options, kMaxHypotheses);
   std::vector<Track> tracks;
   for (const LineHypothesis& one : hypotheses) {
     if (one.log_likelihood < hypotheses.front().log_likelihood - kHopeless) break;
@@ -131,7 +131,7 @@ TagTrack judged(const TrackingOptions& options, const Pass& pass, TagTrack resul
                                            "(coherence {:.2f}, at least {} is expected)",
                                            best.coherence, options.min_coherence));
   }
-  if (!(best.log_evidence >= kLeastEvidence)) {
+  if (!(best.log_evidence >= kMinEvidence)) {
     return not_tracked(result,
                        fmt::format("random phases would fit a track as well: {} reads in {} groups "
                                    "of one antenna and channel are too few; a longer dwell on a "

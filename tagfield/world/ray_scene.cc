@@ -120,7 +120,7 @@ void attach(RTCDevice device, RTCScene scene, Triangles& triangles) {
 }
 
 bool can_hit(const Ray& ray) {
-  return ray.origin.allFinite() && ray.direction.allFinite() && ray.most_m >= 0.0F;
+  return ray.origin.allFinite() && ray.direction.allFinite() && ray.max_m >= 0.0F;
 }
 
 /// Distance along the ray to the plane, or `otherwise` if that is shorter.
@@ -141,7 +141,7 @@ void put(const Ray& ray, std::size_t lane, RTCRayHit16& packet) {
   packet.ray.dir_y[lane] = ray.direction.y();
   packet.ray.dir_z[lane] = ray.direction.z();
   packet.ray.tnear[lane] = 0.0F;
-  packet.ray.tfar[lane] = ray.most_m;
+  packet.ray.tfar[lane] = ray.max_m;
   packet.ray.time[lane] = 0.0F;
   packet.ray.mask[lane] = ~0U;
   packet.ray.flags[lane] = 0;
@@ -157,7 +157,7 @@ RTCRayHit single(const Ray& ray) {
   hit.ray.dir_x = ray.direction.x();
   hit.ray.dir_y = ray.direction.y();
   hit.ray.dir_z = ray.direction.z();
-  hit.ray.tfar = ray.most_m;
+  hit.ray.tfar = ray.max_m;
   hit.ray.mask = ~0U;
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -181,8 +181,8 @@ RayScene::Impl::Impl() : device(lasting_device()) {
 RayScene::Impl::~Impl() { rtcReleaseScene(scene); }
 
 float RayScene::Impl::with_planes(const Ray& ray, float distance) const {
-  // Up to most_m, but an infinite ray doesn't hit a plane at infinity.
-  float nearest = distance == kNothing ? std::nextafter(ray.most_m, kNothing) : distance;
+  // Up to max_m, but an infinite ray doesn't hit a plane at infinity.
+  float nearest = distance == kNothing ? std::nextafter(ray.max_m, kNothing) : distance;
   const float limit = nearest;
   for (const WorldPlane& plane : planes) nearest = nearer(plane, ray, nearest);
   return nearest < limit ? nearest : distance;

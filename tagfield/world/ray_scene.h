@@ -16,7 +16,7 @@ namespace tagfield {
 struct Ray {
   Eigen::Vector3f origin;     ///< [m, world]
   Eigen::Vector3f direction;  ///< Unit vector.
-  float most_m = 0.0F;        ///< Its length.
+  float max_m = 0.0F;         ///< Its length.
 };
 
 /// A segment of a line: the points origin + s·direction with from_m ≤ s ≤ to_m.
@@ -52,10 +52,10 @@ class RayScene {
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
 
-  /// Distance to the first surface, front or back [m], or +infinity if there is none within most_m.
+  /// Distance to the first surface, front or back [m], or +infinity if there is none within max_m.
   /// The ray is used exactly as given in floats; the result is accurate to 1e-6 of the distance. A
   /// ray that starts on a surface may hit it at 0 or miss it; a ray with a component that is not
-  /// finite, or with a negative `most_m`, hits nothing.
+  /// finite, or with a negative `max_m`, hits nothing.
   [[nodiscard]] float distance(const Ray& ray) const;
   /// Same for many rays, by Embree's packets, which is faster; `distances` is resized to match
   /// `rays`. May differ from distance() by rounding errors, and where a ray just grazes the edge of

@@ -17,7 +17,7 @@ constexpr double kSingle = 1e-6;
 /// clearly_stops() requires a hit to be inside the triangle by a margin larger by this factor than
 /// the tolerance of surfaces(), and not to be at a grazing angle, where Embree may miss it.
 constexpr double kClear = 4.0;
-constexpr double kLeastSlope = 0.02;
+constexpr double kMinSlope = 0.02;
 /// Minimum height above the triangle of the points where a segment starts to count and ends [m].
 constexpr double kClearHeight = 1e-4;
 
@@ -139,7 +139,7 @@ bool RayScene::clearly_stops(std::uint32_t collision, std::uint32_t triangle,
   const Eigen::Vector3d& normal = triangles.normals[number];
   const Eigen::Vector3d a = triangles.vertices[i] - segment.origin;
   const double slope = segment.direction.dot(normal);
-  if (!(std::abs(slope) > kLeastSlope)) return false;
+  if (!(std::abs(slope) > kMinSlope)) return false;
   const double distance = normal.dot(a) / slope;
   const double to_end = std::min(distance - std::max(segment.from_m, segment.stop_from_m),
                                  std::min(segment.to_m, segment.stop_to_m) - distance);

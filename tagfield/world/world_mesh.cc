@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kMostCoordinate = 1e9;  // [m]
+constexpr double kMaxCoordinate = 1e9;  // [m]
 
 }  // namespace
 
@@ -17,9 +17,9 @@ TriangleMesh world_mesh(const Collision& collision) {
   TriangleMesh mesh = triangulate(collision.shape);
   for (Eigen::Vector3d& p : mesh.vertices) {
     p = collision.X_WC * p;
-    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kMostCoordinate) {
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kMaxCoordinate) {
       throw Error(fmt::format("{}: a vertex at ({}, {}, {}) is not within {:g} m of the origin",
-                              collision.name, p.x(), p.y(), p.z(), kMostCoordinate));
+                              collision.name, p.x(), p.y(), p.z(), kMaxCoordinate));
     }
   }
   const std::size_t count = mesh.vertices.size();

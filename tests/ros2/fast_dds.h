@@ -33,13 +33,13 @@ inline const auto fast_ok = eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
 /// A type without a key.
 class FastType : public fast::TopicDataType {
  public:
-  FastType(const std::string& name, std::uint32_t most_bytes) : most_bytes_(most_bytes) {
+  FastType(const std::string& name, std::uint32_t max_bytes) : max_bytes_(max_bytes) {
 #if FAST_DDS >= 3
     set_name(name);
-    max_serialized_type_size = most_bytes;
+    max_serialized_type_size = max_bytes;
 #else
     setName(name.c_str());
-    m_typeSize = most_bytes;
+    m_typeSize = max_bytes;
     m_isGetKeyDefined = false;
 #endif
   }
@@ -60,7 +60,7 @@ class FastType : public fast::TopicDataType {
   }
   std::uint32_t calculate_serialized_size(
       const void* /*data*/, fast::DataRepresentationId_t /*representation*/) override {
-    return most_bytes_;
+    return max_bytes_;
   }
   void* create_data() override { return create(); }
   void delete_data(void* data) override { destroy(data); }
@@ -80,7 +80,7 @@ class FastType : public fast::TopicDataType {
     return read(*payload, data);
   }
   std::function<std::uint32_t()> getSerializedSizeProvider(void* /*data*/) override {
-    return [bytes = most_bytes_] { return bytes; };
+    return [bytes = max_bytes_] { return bytes; };
   }
   void* createData() override { return create(); }
   void deleteData(void* data) override { destroy(data); }
@@ -90,7 +90,7 @@ class FastType : public fast::TopicDataType {
 #endif
 
  private:
-  std::uint32_t most_bytes_;
+  std::uint32_t max_bytes_;
 };
 
 /// Is told of participants and writers that are found.

@@ -246,7 +246,7 @@ void add_fixed_antennas(Builder& builder, XMLElement* world) {
 
 void add_fixed_tags(Builder& builder, XMLElement* world) {
   const std::vector<const TagSpec*> tags = fixed_tags(builder);
-  if (tags.size() > kMostTagModels) {
+  if (tags.size() > kMaxTagModels) {
     add_tag_sets(builder, tags, world);
     return;
   }

@@ -16,8 +16,8 @@ namespace {
 namespace websocket = beast::websocket;
 
 /// Two seconds' worth: a client that is further behind loses the oldest.
-constexpr std::size_t kMostFrames = 40;
-constexpr std::size_t kMostMessage = 4096;
+constexpr std::size_t kMaxFrames = 40;
+constexpr std::size_t kMaxMessage = 4096;
 
 class FrameSession final : public FrameClient, public std::enable_shared_from_this<FrameSession> {
  public:
@@ -27,7 +27,7 @@ class FrameSession final : public FrameClient, public std::enable_shared_from_th
 
   void begin(Request request) {
     socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    socket_.read_message_max(kMostMessage);
+    socket_.read_message_max(kMaxMessage);
     request_ = std::move(request);
     socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
       if (error) return;
@@ -39,7 +39,7 @@ class FrameSession final : public FrameClient, public std::enable_shared_from_th
   void on_frame(std::shared_ptr<const std::string> frame) override {
     {
       const std::lock_guard<std::mutex> guard(lock_);
-      if (frames_.size() >= kMostFrames) {
+      if (frames_.size() >= kMaxFrames) {
         frames_.pop_front();
         ++dropped_;
       }

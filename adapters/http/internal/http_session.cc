@@ -21,14 +21,14 @@ namespace {
 
 namespace http = beast::http;
 
-constexpr std::uint64_t kMostBody = 65'536;
-constexpr std::uint32_t kMostHeader = 16'384;
+constexpr std::uint64_t kMaxBody = 65'536;
+constexpr std::uint32_t kMaxHeader = 16'384;
 /// Time limit for receiving a request, and between two of them.
 constexpr std::chrono::seconds kPatience(30);
 
 /// Time for a client to receive the last response and stop sending.
 constexpr std::chrono::seconds kGoodbye(2);
-constexpr std::size_t kMostDrained = 1U << 20U;
+constexpr std::size_t kMaxDrained = 1U << 20U;
 
 constexpr const char* kPagePolicy =
     "default-src 'self'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; "
@@ -77,8 +77,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
 void HttpSession::read() {
   parser_.emplace();
-  parser_->body_limit(kMostBody);
-  parser_->header_limit(kMostHeader);
+  parser_->body_limit(kMaxBody);
+  parser_->header_limit(kMaxHeader);
   stream_.expires_after(kPatience);
   http::async_read(
       stream_, buffer_, *parser_,
@@ -88,9 +88,9 @@ void HttpSession::read() {
 void HttpSession::on_read(beast::error_code error) {
   keep_alive_ = false;
   if (error == http::error::body_limit) {
-    respond(api_error(413, fmt::format("a body is at most {} bytes", kMostBody)));
+    respond(api_error(413, fmt::format("a body is at most {} bytes", kMaxBody)));
   } else if (error == http::error::header_limit) {
-    respond(api_error(431, fmt::format("headers are at most {} bytes", kMostHeader)));
+    respond(api_error(431, fmt::format("headers are at most {} bytes", kMaxHeader)));
   } else if (error == http::error::end_of_stream || error == beast::error::timeout ||
              error == asio::error::operation_aborted || error == asio::error::connection_reset) {
     close();
@@ -228,7 +228,7 @@ void HttpSession::drain() {
   stream_.async_read_some(asio::buffer(drained_),
                           [self = shared_from_this()](beast::error_code error, std::size_t bytes) {
                             self->drained_bytes_ += bytes;
-                            if (!error && self->drained_bytes_ < kMostDrained) self->drain();
+                            if (!error && self->drained_bytes_ < kMaxDrained) self->drain();
                           });
 }
 

@@ -20,7 +20,7 @@ namespace {
 namespace http = beast::http;
 
 /// Reads queued for a client: one that is further behind loses the oldest.
-constexpr std::size_t kMostReads = 20'000;
+constexpr std::size_t kMaxReads = 20'000;
 /// A client that receives nothing for this long is considered gone.
 constexpr std::chrono::seconds kWritePatience(60);
 
@@ -55,7 +55,7 @@ class ReadSession final : public ReadClient, public std::enable_shared_from_this
       const std::lock_guard<std::mutex> guard(lock_);
       waiting_ += reads->lines.size();
       batches_.push_back(std::move(reads));
-      while (waiting_ > kMostReads && batches_.size() > 1) {
+      while (waiting_ > kMaxReads && batches_.size() > 1) {
         waiting_ -= batches_.front()->lines.size();
         dropped_ += batches_.front()->lines.size();
         batches_.pop_front();

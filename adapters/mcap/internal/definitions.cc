@@ -20,9 +20,9 @@ const char* Definitions::add(Op op, std::string_view content) {
   if (!is_schema && !channel_in(content)) return "a channel is broken, and left out";
   if (is_schema && id == 0) return "a schema has the id 0, and is left out";
   bytes_ += content.size();
-  if (bytes_ > kMostMcapDefinitionBytes) {
+  if (bytes_ > kMaxMcapDefinitionBytes) {
     throw Error(fmt::format("its schemas and channels take more than {} bytes, which is the limit",
-                            kMostMcapDefinitionBytes));
+                            kMaxMcapDefinitionBytes));
   }
   known.emplace(id, content);
   return nullptr;

@@ -17,7 +17,7 @@ namespace tagfield::mcap_internal {
 class Definitions {
  public:
   /// Adds a schema or a channel. Returns null, or what is wrong with it. Throws Error, which does
-  /// not name the file, if together they exceed kMostMcapDefinitionBytes.
+  /// not name the file, if together they exceed kMaxMcapDefinitionBytes.
   const char* add(Op op, std::string_view content);
 
   /// Links channels to their schemas, which may follow them in the file. Returns the ids of

@@ -16,10 +16,10 @@ namespace {
 
 constexpr std::uint64_t kTailBytes = kHeadBytes + kFooterBytes + kMagic.size();
 /// Incompressible data become slightly longer.
-constexpr std::uint64_t kMostRecordBytes = kMostMcapChunkBytes + (1U << 20U);
+constexpr std::uint64_t kMaxRecordBytes = kMaxMcapChunkBytes + (1U << 20U);
 /// Records outside of chunks are grouped up to this size.
 constexpr std::uint64_t kRunBytes = 1U << 20U;
-constexpr int kMostWarnings = 20;
+constexpr int kMaxWarnings = 20;
 
 /// Warnings about one file, limited in number for badly damaged files.
 class Complaints {
@@ -37,7 +37,7 @@ class Complaints {
  private:
   std::string path_;
   Diagnostics& diagnostics_;
-  int left_ = kMostWarnings;
+  int left_ = kMaxWarnings;
 };
 
 /// Adds a channel to a piece's channels.
@@ -88,7 +88,7 @@ class Scanner {
 /// The summary is optional, and so is its CRC; without a CRC it is not relied on.
 void Scanner::read_summary(std::uint64_t start, std::uint64_t footer, std::uint32_t crc) {
   const std::uint64_t checked = footer + kHeadBytes + kFooterBytes - sizeof(crc);
-  if (start < kMagic.size() || start > footer || footer - start > kMostRecordBytes) {
+  if (start < kMagic.size() || start > footer || footer - start > kMaxRecordBytes) {
     return complaints_.say(footer, "the footer says that the summary is where it can't be");
   }
   if (crc == 0) return;
@@ -155,9 +155,9 @@ void Scanner::take(Op op, std::uint64_t at, std::uint64_t length) {
                          op == Op::kChunk || op == Op::kDataEnd;
   if (op == Op::kFooter && at + kTailBytes == file_.size()) is_over_ = true;
   if (!is_wanted) return;  // Indexes, attachments, and records of later versions.
-  if (length > kMostRecordBytes) {
+  if (length > kMaxRecordBytes) {
     return complaints_.say(at, fmt::format("a record of {} bytes is left out, the limit is {}",
-                                           length, kMostRecordBytes));
+                                           length, kMaxRecordBytes));
   }
   if (op == Op::kChunk) return take_chunk(at, length);
   if (op == Op::kMessage) return take_message(at, length);
@@ -292,7 +292,7 @@ const char* open_chunk(std::string_view content, std::string& records) {
   const std::string_view compression = fields.text();
   const std::string_view bytes = fields.bytes(fields.number<std::uint64_t>());
   if (!fields.is_whole()) return "it goes beyond its end";
-  if (size > kMostMcapChunkBytes) return "it is longer than 256 MB before compression";
+  if (size > kMaxMcapChunkBytes) return "it is longer than 256 MB before compression";
   if (const char* const fault = decompress(compression, bytes, size, records)) return fault;
   return crc != 0 && crc_of(records) != crc ? "its CRC is wrong" : nullptr;
 }

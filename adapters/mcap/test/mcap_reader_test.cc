@@ -105,7 +105,7 @@ TEST(McapReader, LeavesOutChunksThatAreWrong) {
       {chunk("lz4", lz4(records), size - 1, right), "it does not decompress to its size"},
       {chunk("lz4", lz4(records), size + 1, right), "it does not decompress to its size"},
       {chunk("lz4", lz4(records).substr(0, 20), size, right), "it does not decompress to its size"},
-      {chunk("zstd", zstd(records), kMostMcapChunkBytes + 1, right), "it is longer than 256 MB"},
+      {chunk("zstd", zstd(records), kMaxMcapChunkBytes + 1, right), "it is longer than 256 MB"},
       {chunk("zstd", zstd(records), ~std::uint64_t{0}, right), "it is longer than 256 MB"},
       {record(6, ""), "it goes beyond its end"},
   };

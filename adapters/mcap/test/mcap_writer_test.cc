@@ -145,7 +145,7 @@ TEST(McapWriter, RefusesWhatItCouldNotReadAgain) {
   const McapChannelId a = writer.add_channel(channel_of("/a"));
   EXPECT_EQ(error_of([&] { writer.write(2, 0, 0, ""); }), "the MCAP file has no channel 2");
   EXPECT_THROW(writer.write(0, 0, 0, ""), Error);
-  const std::string long_text(kMostMcapMessageBytes + 1, 'x');
+  const std::string long_text(kMaxMcapMessageBytes + 1, 'x');
   EXPECT_THROW(writer.write(a, 0, 0, long_text), Error);
   McapChannel channel = channel_of("/b");
   channel.metadata["long"] = long_text;
@@ -161,7 +161,7 @@ TEST(McapWriter, TheLongestMessagesFitTheirChunks) {
   const TemporaryFolder folder;
   McapWriter writer(folder.file("f"));
   const McapChannelId a = writer.add_channel(channel_of("/a"));
-  const std::string longest(kMostMcapMessageBytes, 'x');
+  const std::string longest(kMaxMcapMessageBytes, 'x');
   writer.write(a, 1, 1, "short");
   writer.write(a, 2, 2, longest);
   writer.write(a, 3, 3, longest);

@@ -14,7 +14,7 @@ std::optional<PlanarPose> BelievedPose::odom_on_map() const {
   const std::optional<Time> odometry = frames_.newest_stamp(names_.odom, names_.base);
   if (!X_MO || !stamp || !odometry) return std::nullopt;
   // A frame that never changes is never old.
-  const bool is_old = *stamp != Time{} && to_seconds(*odometry - *stamp) > most_age_s_;
+  const bool is_old = *stamp != Time{} && to_seconds(*odometry - *stamp) > max_age_s_;
   if (is_old) return std::nullopt;
   return to_planar(*X_MO);
 }

@@ -13,9 +13,9 @@ namespace tagfield {
 /// The map's frame may lag behind, as localization takes time; odometry continues in the meantime.
 class BelievedPose {
  public:
-  /// A map frame that is more than `most_age_s` older than odometry is not used.
-  BelievedPose(const FrameListener& frames, FrameNames names, double most_age_s)
-      : frames_(frames), names_(std::move(names)), most_age_s_(most_age_s) {}
+  /// A map frame that is more than `max_age_s` older than odometry is not used.
+  BelievedPose(const FrameListener& frames, FrameNames names, double max_age_s)
+      : frames_(frames), names_(std::move(names)), max_age_s_(max_age_s) {}
 
   /// X_MR now.
   [[nodiscard]] std::optional<PlanarPose> now() const;
@@ -31,7 +31,7 @@ class BelievedPose {
 
   const FrameListener& frames_;
   FrameNames names_;
-  double most_age_s_;
+  double max_age_s_;
 };
 
 }  // namespace tagfield

@@ -55,7 +55,7 @@ class DrivingNode {
   NodeParameters parameters_{private_};
   FrameNames names_ = frame_names(parameters_);
   GoalDriverSettings settings_ = driver_settings(parameters_);
-  double most_age_s_ = parameters_.positive("pose_timeout", 1.0);
+  double max_age_s_ = parameters_.positive("pose_timeout", 1.0);
   OccupancyGrid keep_out_ = map_from_file(parameters_.text("keep_out_file", ""));
   std::optional<OccupancyGrid> map_;
   std::optional<GoalDriver> driver_;
@@ -71,7 +71,7 @@ class DrivingNode {
   ros::Publisher statuses_ =
       private_.advertise<actionlib_msgs::GoalStatusArray>("status", 10, true);
   FrameListener frames_{node_, [this] { on_frames(); }};
-  BelievedPose believed_{frames_, names_, most_age_s_};
+  BelievedPose believed_{frames_, names_, max_age_s_};
   ScanSource scans_{node_, frames_, names_, false,
                     [this](const LocatedScan& located) { on_scan(located); }};
   ros::Subscriber map_subscriber_;

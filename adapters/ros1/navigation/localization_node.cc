@@ -87,12 +87,12 @@ LocalizerSettings LocalizationNode::localizer_settings(const NodeParameters& par
   LocalizerSettings settings;
   settings.update_distance_m = parameters.positive("update_min_d", settings.update_distance_m);
   settings.update_turn_rad = parameters.positive("update_min_a", settings.update_turn_rad);
-  settings.least_particles = parameters.count("min_particles", settings.least_particles);
-  settings.most_particles = parameters.count("max_particles", settings.most_particles);
+  settings.min_particles = parameters.count("min_particles", settings.min_particles);
+  settings.max_particles = parameters.count("max_particles", settings.max_particles);
   settings.beams = parameters.count("laser_max_beams", settings.beams);
-  settings.most_particles = std::max(settings.most_particles, settings.least_particles);
-  settings.first_particles = std::min(settings.first_particles, settings.most_particles);
-  settings.least_searching = std::min(settings.least_searching, settings.most_particles);
+  settings.max_particles = std::max(settings.max_particles, settings.min_particles);
+  settings.first_particles = std::min(settings.first_particles, settings.max_particles);
+  settings.min_searching = std::min(settings.min_searching, settings.max_particles);
   return settings;
 }
 

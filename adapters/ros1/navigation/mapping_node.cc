@@ -69,7 +69,7 @@ MapperSettings MappingNode::mapper_settings(const NodeParameters& parameters) {
   settings.resolution_m = parameters.positive("delta", settings.resolution_m);
   settings.update_distance_m = parameters.positive("linearUpdate", settings.update_distance_m);
   settings.update_turn_rad = parameters.positive("angularUpdate", settings.update_turn_rad);
-  settings.most_clear_m = parameters.positive("maxUrange", settings.most_clear_m);
+  settings.max_clear_m = parameters.positive("maxUrange", settings.max_clear_m);
   settings.threads = parameters.count("threads", settings.threads);
   return settings;
 }

@@ -13,10 +13,10 @@ namespace {
 
 /// Indices of x, y and yaw in x, y, z, roll, pitch, yaw.
 constexpr std::size_t kPlanarRows[] = {0, 1, 5};
-constexpr double kLeastVariance = 1e-6;
+constexpr double kMinVariance = 1e-6;
 /// Rotations of a map below this count as none [rad].
 constexpr double kStraight = 1e-6;
-constexpr int kMostCells = 100'000;  ///< Along one side.
+constexpr int kMaxCells = 100'000;  ///< Along one side.
 
 RigidTransform checked_pose(const Eigen::Quaterniond& rotation,
                             const Eigen::Vector3d& translation) {
@@ -55,7 +55,7 @@ void check_size(const nav_msgs::OccupancyGrid& message) {
   const std::uint32_t width = message.info.width;
   const std::uint32_t height = message.info.height;
   if (width == 0 || height == 0) throw Error("map: has no cells");
-  if (width > kMostCells || height > kMostCells ||
+  if (width > kMaxCells || height > kMaxCells ||
       message.data.size() != std::uint64_t{width} * height) {
     throw Error(
         fmt::format("map: {} cells of data, expected {} x {}", message.data.size(), width, height));
@@ -87,7 +87,7 @@ LaserScan scan_of(const sensor_msgs::LaserScan& message) {
   scan.first_angle_rad = static_cast<double>(message.angle_min);
   scan.angle_step_rad = static_cast<double>(message.angle_increment);
   scan.min_range_m = static_cast<double>(message.range_min);
-  scan.max_range_m = std::min(kMostRange, static_cast<double>(message.range_max));
+  scan.max_range_m = std::min(kMaxRange, static_cast<double>(message.range_max));
   scan.ranges_m.reserve(message.ranges.size());
   for (const float range : message.ranges) scan.ranges_m.push_back(range_of(range, scan));
   return scan;
@@ -176,7 +176,7 @@ Eigen::Matrix3d covariance_of(const geometry_msgs::PoseWithCovariance& message) 
   }
   if (!covariance.allFinite()) throw Error("covariance is not finite");
   if ((covariance.diagonal().array() < 0.0).any()) throw Error("covariance has variances below 0");
-  covariance.diagonal() = covariance.diagonal().cwiseMax(kLeastVariance);
+  covariance.diagonal() = covariance.diagonal().cwiseMax(kMinVariance);
   return covariance;
 }
 

@@ -36,9 +36,9 @@ ros::Time ros_time(Time time);
 
 /// REP-117: +inf is no return, -inf too near, NaN invalid. Finite ranges of range_max and more are
 /// also no return, as lasers from before REP-117 report that; those below range_min are invalid.
-/// Ranges above kMostRange are clipped.
+/// Ranges above kMaxRange are clipped.
 LaserScan scan_of(const sensor_msgs::LaserScan& message);
-inline constexpr double kMostRange = 1000.0;  ///< [m]
+inline constexpr double kMaxRange = 1000.0;  ///< [m]
 
 /// Cells outside -1 … 100 are unknown. Throws Error also if a map's size does not match its data,
 /// or if it is rotated: cells must be aligned with the axes.

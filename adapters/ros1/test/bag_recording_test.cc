@@ -333,9 +333,9 @@ TEST(ReadBag, TellsReadsThatAreTooManyToBeHeld) {
   const BagRecording held = recording_of(bag_in(folder));
   ASSERT_FALSE(held.untold);
   BagOptions options;
-  options.most_reads = 190;
+  options.max_reads = 190;
   EXPECT_FALSE(recording_of(bag_in(folder), options).untold);
-  options.most_reads = 189;
+  options.max_reads = 189;
   const BagRecording bag = recording_of(bag_in(folder), options);
   ASSERT_TRUE(bag.untold);
   EXPECT_TRUE(bag.reads.empty());
@@ -361,16 +361,16 @@ TEST(ReadBag, TellsReadsThatAreTooManyToBeHeld) {
   EXPECT_EQ(bag.truth.tag_positions.size(), 1U);
   EXPECT_EQ(bag.duration_s, held.duration_s);
   // With a truth, the believed poses are left out.
-  options.most_reads_believed = 190;
+  options.max_reads_believed = 190;
   EXPECT_EQ(recording_of(bag_in(folder), options).believed.poses.size(),
             held.believed.poses.size());
-  options.most_reads_believed = 189;
+  options.max_reads_believed = 189;
   EXPECT_TRUE(recording_of(bag_in(folder), options).believed.poses.empty());
 }
 
 TEST(ReadBag, TellsOnlyReadsAfterTheLastReset) {
   BagOptions options;
-  options.most_reads = 1;
+  options.max_reads = 1;
   const TemporaryFolder folder;
   {
     BagWriter writer(bag_in(folder));
@@ -392,7 +392,7 @@ TEST(ReadBag, TellsOnlyReadsAfterTheLastReset) {
 
 TEST(ReadBag, RefusesABagThatHasOtherReadsTheSecondTime) {
   BagOptions options;
-  options.most_reads = 0;
+  options.max_reads = 0;
   const TemporaryFolder folder;
   const auto write = [&](int reads) {
     BagWriter writer(bag_in(folder));

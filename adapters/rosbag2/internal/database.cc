@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostBytes = 128 << 20;  ///< Per row.
+constexpr int kMaxBytes = 128 << 20;  ///< Per row.
 
 void require_file(const std::string& path) {
   std::error_code error;
@@ -43,7 +43,7 @@ std::string address_of(const std::string& path) {
 /// Disables views and functions from the file and limits sizes; allows files that are shorter than
 /// stated, and partly corrupt schemas, to be read as far as possible.
 void make_wary(sqlite3* database) {
-  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kMostBytes);
+  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kMaxBytes);
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   for (const char* setting :

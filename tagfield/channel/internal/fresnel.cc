@@ -11,7 +11,7 @@ namespace {
 
 using Complex = std::complex<double>;
 /// At this exponent a wave has lost 8,600 dB. The limit avoids infinities; e^x is 0 anyway.
-constexpr double kMostLoss = 1000.0;
+constexpr double kMaxLoss = 1000.0;
 
 /// The square root with a real part of at least 0, for |z| up to 1e150.
 Complex root_of(Complex z) {
@@ -31,7 +31,7 @@ Complex normal_component(Complex eta, double cosine) {
 /// e^{−jq} for the complex phase q along the slab's normal.
 Complex through(Complex root, double thickness_m, double lambda_m) {
   const double wave = kTwoPi * thickness_m / lambda_m;
-  return std::polar(std::exp(std::max(wave * root.imag(), -kMostLoss)), -wave * root.real());
+  return std::polar(std::exp(std::max(wave * root.imag(), -kMaxLoss)), -wave * root.real());
 }
 
 /// Includes the multiple reflections between the slab's two faces.

@@ -19,10 +19,10 @@ constexpr double kFar = 2.5;
 
 /// 1 − erf(z) by its power series, for |z| up to 3.
 Complex erfc_near(Complex z) {
-  constexpr int kMostTerms = 100;
+  constexpr int kMaxTerms = 100;
   Complex power = z;
   Complex sum = z;
-  for (int n = 1; n < kMostTerms; ++n) {
+  for (int n = 1; n < kMaxTerms; ++n) {
     power *= -z * z / static_cast<double>(n);
     const Complex term = power / (2.0 * n + 1.0);
     sum += term;

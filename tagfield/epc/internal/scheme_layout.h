@@ -36,8 +36,8 @@ const SchemeLayout* layout_of_header(std::uint8_t header);
 std::string scheme_names();
 
 /// Allowed length of a company prefix.
-inline constexpr int kLeastCompanyDigits = 6;
-inline constexpr int kMostCompanyDigits = 12;
+inline constexpr int kMinCompanyDigits = 6;
+inline constexpr int kMaxCompanyDigits = 12;
 /// Bits of a company prefix by partition: for 12, 11, … 6 digits.
 inline constexpr std::array<int, 7> kCompanyBits = {40, 37, 34, 30, 27, 24, 20};
 

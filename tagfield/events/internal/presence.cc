@@ -33,12 +33,12 @@ void Presence::take(const TagRead& read, EventListener& listener) {
     event.logical_reader = logical_reader_;
     event.tag = read.tag;
     event.first_read = read.stamp;
-    event.most_rssi_dbm = read.rssi_dbm;
+    event.max_rssi_dbm = read.rssi_dbm;
     due_.emplace(read.stamp + rule_.gone_after, read.tag);
   }
   event.antenna = read.antenna;
   event.last_read = read.stamp;
-  event.most_rssi_dbm = std::max(event.most_rssi_dbm, read.rssi_dbm);
+  event.max_rssi_dbm = std::max(event.max_rssi_dbm, read.rssi_dbm);
   ++event.reads;
   if (is_new) tell(PresenceChange::kGlimpsed, read.stamp, tag, listener);
   if (tag.is_observed) return;

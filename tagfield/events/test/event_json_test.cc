@@ -18,7 +18,7 @@ TEST(EventJson, TellsPresence) {
   event.first_read = time_from_seconds(1.5);
   event.last_read = time_from_seconds(2.0);
   event.reads = 3;
-  event.most_rssi_dbm = -51.239;
+  event.max_rssi_dbm = -51.239;
   EXPECT_EQ(to_json_line(event, utc_from_text("2020-01-01")),
             R"({"eventType":"gone","timestamp":"2020-01-01T00:00:04.000000000Z",)"
             R"("logicalReader":"dock \"3\"","epc":"3074257BF7194E4000001A85",)"

@@ -14,7 +14,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostName = 28;
+constexpr std::size_t kMaxName = 28;
 constexpr const char* kErrorsText =
     "<p class=\"muted\">The share of the tags that were located no further off than the value "
     "below. "
@@ -126,7 +126,7 @@ std::string row_of(const BenchEntry& entry, const Columns& columns) {
   const EntryStatistics all = statistics_of(entry);
   std::string html = fmt::format(
       "<tr><th scope=\"row\" title=\"{}\"><bdi>{}</bdi></th><td>{} of {}</td>",
-      escaped(entry.method), escaped(shortened(entry.name, kMostName)), all.located, all.tags);
+      escaped(entry.method), escaped(shortened(entry.name, kMaxName)), all.located, all.tags);
   html += ambiguous_cell(all) + cell(grouped(all.not_located)) + cell(grouped(all.wrong)) +
           cell(grouped(all.false_claims));
   html += length_cell(all.error_m, &ErrorStatistics::mean);

@@ -10,19 +10,19 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostTextName = 24;
+constexpr std::size_t kMaxTextName = 24;
 
 std::size_t name_width(const Bench& bench) {
   std::size_t width = 6;
   for (const BenchEntry& entry : bench.entries) {
-    width = std::max(width, length_of(shortened(entry.name, kMostTextName)));
+    width = std::max(width, length_of(shortened(entry.name, kMaxTextName)));
   }
   return width;
 }
 
 /// Width in characters, not bytes.
 std::string padded(const std::string& name, std::size_t width) {
-  const std::string text = shortened(name, kMostTextName);
+  const std::string text = shortened(name, kMaxTextName);
   return text + std::string(width - length_of(text), ' ');
 }
 

@@ -21,15 +21,15 @@ namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint64_t kMostSeeds = 1'000'000;
-constexpr double kMostBursts = 1000.0;  // Simultaneously active.
-constexpr double kLeastEvery_s = 1e-3;
+constexpr std::uint64_t kMaxSeeds = 1'000'000;
+constexpr double kMaxBursts = 1000.0;  // Simultaneously active.
+constexpr double kMinEvery_s = 1e-3;
 constexpr double kMaxTimestampDelay_s = 3600.0;
 
 std::uint64_t count_of(const YamlValue& value) {
   const std::uint64_t count = value.whole_number();
-  if (count < 1 || count > kMostSeeds) {
-    value.fail(fmt::format("must be from 1 to {}, is {}", kMostSeeds, count));
+  if (count < 1 || count > kMaxSeeds) {
+    value.fail(fmt::format("must be from 1 to {}, is {}", kMaxSeeds, count));
   }
   return count;
 }
@@ -78,14 +78,13 @@ ReadLoss loss_of(YamlMap map) {
   if (loss.share > 1.0) map.at("share").fail(fmt::format("must be from 0 to 1, is {}", loss.share));
   loss.burst_s = map.number("burst_s", loss.burst_s, kNotNegative);
   loss.every_s = map.number("every_s", loss.every_s, kPositive);
-  if (map.has("every_s") && loss.every_s < kLeastEvery_s) {
-    map.at("every_s").fail(
-        fmt::format("must be at least {} s, is {}", kLeastEvery_s, loss.every_s));
+  if (map.has("every_s") && loss.every_s < kMinEvery_s) {
+    map.at("every_s").fail(fmt::format("must be at least {} s, is {}", kMinEvery_s, loss.every_s));
   }
   if (loss.burst_s > 0.0) static_cast<void>(map.at("every_s"));
-  if (loss.burst_s > kMostBursts * loss.every_s) {
+  if (loss.burst_s > kMaxBursts * loss.every_s) {
     map.at("burst_s").fail(
-        fmt::format("must be at most {} times every_s, is {}: nothing would be read", kMostBursts,
+        fmt::format("must be at most {} times every_s, is {}: nothing would be read", kMaxBursts,
                     loss.burst_s));
   }
   map.finish();

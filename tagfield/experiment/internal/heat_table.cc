@@ -17,7 +17,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostHeatName = 24;
+constexpr std::size_t kMaxHeatName = 24;
 
 /// A step of the scale, with a contrasting text colour.
 struct HeatColor {
@@ -103,8 +103,8 @@ std::string heat_row(const Bench& bench, const BenchCondition& condition,
   const std::optional<Winner> winner = winner_of(entries);
   std::string html = fmt::format(
       "<tr><th scope=\"row\" title=\"{}\"><bdi>{}</bdi></th><td class=\"words\">{}</td>",
-      escaped(condition.name), escaped(shortened(condition.name, kMostHeatName)),
-      winner ? escaped(shortened(winner->entry->name, kMostHeatName)) +
+      escaped(condition.name), escaped(shortened(condition.name, kMaxHeatName)),
+      winner ? escaped(shortened(winner->entry->name, kMaxHeatName)) +
                    (winner->alike.empty() ? ""
                                           : fmt::format("<br><small>≈ {}</small>",
                                                         counted(winner->alike.size(), "other")))
@@ -152,7 +152,7 @@ std::string heat_table(const Bench& bench) {
       "method\" tabindex=\"0\"><table>\n<thead><tr><th scope=\"col\">Condition</th>"
       "<th scope=\"col\" class=\"words\">Winner</th>";
   for (const std::string& method : methods) {
-    html += "<th scope=\"col\"><bdi>" + escaped(shortened(method, kMostHeatName)) + "</bdi></th>";
+    html += "<th scope=\"col\"><bdi>" + escaped(shortened(method, kMaxHeatName)) + "</bdi></th>";
   }
   html += "</tr></thead>\n<tbody>\n";
   for (const BenchCondition& condition : bench.conditions) {

@@ -63,7 +63,7 @@ void join_marks(Svg& svg, const Axes& axes, const Panel& panel) {
 
 }  // namespace
 
-std::size_t most_category_name(std::size_t categories, std::size_t panels) {
+std::size_t max_category_name(std::size_t categories, std::size_t panels) {
   const double width = panel_width(columns_for(panels));
   return static_cast<std::size_t>(
       width / static_cast<double>(std::max<std::size_t>(categories, 1)) / kCharacterWidth);

@@ -43,6 +43,6 @@ void draw_panels(Svg& svg, const std::vector<Panel>& panels, const std::vector<P
 
 /// Maximum length of a category's name [characters], given the number of categories in a panel and
 /// of panels.
-std::size_t most_category_name(std::size_t categories, std::size_t panels);
+std::size_t max_category_name(std::size_t categories, std::size_t panels);
 
 }  // namespace tagfield

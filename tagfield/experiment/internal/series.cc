@@ -15,7 +15,7 @@ constexpr double kNameWidth = 176.0;
 constexpr double kMarkHeight = 15.0;
 constexpr double kGroupGap = 9.0;
 constexpr double kSeriesBottom = 48.0;
-constexpr std::size_t kMostSeriesName = 22;
+constexpr std::size_t kMaxSeriesName = 22;
 constexpr double kLeast = 1e-3;  // Smaller values are drawn here.
 constexpr double kMost = 1e4;
 
@@ -58,7 +58,7 @@ void draw_group(Svg& svg, const Bench& bench, const Axes& axes, const MarkGroup&
                 double top) {
   const double height = height_of(group);
   add_line(svg, {2.0, top}, {axes.x.to, top}, styled("grid"));
-  add_text(svg, {2.0, top + 0.5 * height + 5.0}, shortened(group.condition, kMostSeriesName),
+  add_text(svg, {2.0, top + 0.5 * height + 5.0}, shortened(group.condition, kMaxSeriesName),
            Anchor::kStart);
   double y = top + 0.5 * (kGroupGap + kMarkHeight);
   for (const RowMark& mark : group.marks) {
@@ -96,7 +96,7 @@ std::vector<LegendEntry> legend_of(const Bench& bench, const std::vector<std::st
   for (const std::string& name : names) {
     const Series series = series_of(bench, name);
     legend.push_back({symbol, symbol == Symbol::kLine ? series.line : series.dot,
-                      shortened(name, kMostSeriesName)});
+                      shortened(name, kMaxSeriesName)});
   }
   return legend;
 }

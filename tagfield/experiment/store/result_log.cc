@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view kHeadWord = "tagfield-results";
 constexpr std::size_t kCrcDigits = 8;
-constexpr std::size_t kMostWaiting = std::size_t{1} << 22U;  // Bytes buffered before a write.
+constexpr std::size_t kMaxWaiting = std::size_t{1} << 22U;  // Bytes buffered before a write.
 constexpr const char* kOk = "ok";
 constexpr const char* kFailed = "failed";
 
@@ -201,7 +201,7 @@ void ResultLog::add(const LoggedRun& run) {
   const std::lock_guard lock(mutex_);
   waiting_ += line;
   const std::chrono::duration<double> since = Clock::now() - saved_;
-  if (since.count() >= save_every_s_ || waiting_.size() >= kMostWaiting) save();
+  if (since.count() >= save_every_s_ || waiting_.size() >= kMaxWaiting) save();
 }
 
 void ResultLog::finish() {

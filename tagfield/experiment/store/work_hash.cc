@@ -106,8 +106,8 @@ void add_file(const fs::path& path, ContentHash& hash) {
 
 /// Adds files named by scalars of a YAML document, relative to `folder`.
 void add_named_files(const YAML::Node& node, const fs::path& folder, int level, ContentHash& hash) {
-  constexpr int kMostLevels = 100;
-  if (level > kMostLevels) return;
+  constexpr int kMaxLevels = 100;
+  if (level > kMaxLevels) return;
   if (node.IsScalar()) {
     std::error_code error;
     const fs::path path = folder / node.Scalar();

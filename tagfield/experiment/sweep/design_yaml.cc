@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostSteps = 1'000'000;
+constexpr std::size_t kMaxSteps = 1'000'000;
 constexpr const char* kTargetWords[] = {"mean_m",  "median_m", "p95_m",       "max_m",
                                         "located", "wrong",    "false_claims"};
 
@@ -34,7 +34,7 @@ NumberSpan span_of(YamlMap map, bool of_grid) {
     map.at("from").fail("must be greater than 0 on a logarithmic scale");
   }
   span.integer = map.boolean("integer", false);
-  if (of_grid) span.steps = size_in(map.at("steps"), 2, kMostSteps);
+  if (of_grid) span.steps = size_in(map.at("steps"), 2, kMaxSteps);
   map.finish();
   return span;
 }
@@ -83,7 +83,7 @@ ListDesign listed_points(const YamlValue& value) {
 
 LatinHypercubeDesign latin_hypercube_of(YamlMap map) {
   LatinHypercubeDesign design;
-  design.points = size_in(map.at("points"), 1, kMostSteps);
+  design.points = size_in(map.at("points"), 1, kMaxSteps);
   if (map.has("seed")) design.seed = map.at("seed").whole_number();
   design.keys = swept_keys_in(map.at("keys"), false);
   map.finish();

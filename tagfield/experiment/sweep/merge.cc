@@ -135,16 +135,16 @@ void add_run(const LoggedRun& run, const Location& location, std::uint64_t first
   if (run.key.seed == first_seed) results.warnings = std::move(found.warnings);
 }
 
-/// End of the runs of as many complete points from `begin` on as fit into `most_bytes`; at least
+/// End of the runs of as many complete points from `begin` on as fit into `max_bytes`; at least
 /// one point.
-std::size_t window_end(const RunIndex& index, std::size_t begin, std::size_t most_bytes) {
+std::size_t window_end(const RunIndex& index, std::size_t begin, std::size_t max_bytes) {
   std::size_t bytes = 0;
   std::size_t whole = begin;
   for (std::size_t i = begin; i < index.runs.size(); ++i) {
     const bool new_point = i > begin && index.runs[i].key.point != index.runs[i - 1].key.point;
     if (new_point) whole = i;
     bytes += index.runs[i].place.length;
-    if (bytes > most_bytes && whole > begin) return whole;
+    if (bytes > max_bytes && whole > begin) return whole;
   }
   return index.runs.size();
 }
@@ -173,9 +173,9 @@ RunIndex index_runs(const std::vector<std::string>& logs, const LogHead& head,
 }
 
 void for_each_point(const SweepPlan& plan, const RunIndex& index,
-                    const std::function<void(const PointResults&)>& take, std::size_t most_bytes) {
+                    const std::function<void(const PointResults&)>& take, std::size_t max_bytes) {
   for (std::size_t begin = 0; begin < index.runs.size();) {
-    const std::size_t end = window_end(index, begin, most_bytes);
+    const std::size_t end = window_end(index, begin, max_bytes);
     const std::vector<std::string> lines = lines_of(index, begin, end);
     for (std::size_t i = begin; i < end;) {
       require_known_point(plan, index, index.runs[i]);

@@ -53,11 +53,11 @@ struct PointResults {
 };
 
 /// Calls `take` for each point that has runs, in order. Runs of several points are read together,
-/// opening each log once, up to a total of `most_bytes`; all runs of one point are always read
+/// opening each log once, up to a total of `max_bytes`; all runs of one point are always read
 /// together.
 void for_each_point(const SweepPlan& plan, const RunIndex& index,
                     const std::function<void(const PointResults&)>& take,
-                    std::size_t most_bytes = std::size_t{1} << 28U);
+                    std::size_t max_bytes = std::size_t{1} << 28U);
 
 /// The runs of `runs` that are not in the index.
 std::vector<RunKey> missing_of(const std::vector<RunKey>& runs, const RunIndex& index);

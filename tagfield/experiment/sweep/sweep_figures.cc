@@ -18,11 +18,11 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostPanels = 24;
-constexpr std::size_t kMostGridKeys = 3;
-constexpr std::size_t kMostTitle = 30;
+constexpr std::size_t kMaxPanels = 24;
+constexpr std::size_t kMaxGridKeys = 3;
+constexpr std::size_t kMaxTitle = 30;
 constexpr double kLogarithmicOver = 10.0;  // Ratio of the largest to the smallest value.
-constexpr double kLeastShown_mm = 0.01;
+constexpr double kMinShown_mm = 0.01;
 constexpr double kNinetyFivePercent = 1.96;
 
 /// A value of a row, with its error bar.
@@ -44,9 +44,9 @@ struct Metric {
 
 std::optional<Measured> mean_error_mm(const SweepRow& row) {
   if (!row.error_m) return std::nullopt;
-  const double mean = std::max(1e3 * row.error_m->mean, kLeastShown_mm);
+  const double mean = std::max(1e3 * row.error_m->mean, kMinShown_mm);
   const double half = 1e3 * kNinetyFivePercent * row.mean_standard_error_m.value_or(0.0);
-  return Measured{mean, std::max(mean - half, kLeastShown_mm), mean + half};
+  return Measured{mean, std::max(mean - half, kMinShown_mm), mean + half};
 }
 
 std::optional<Measured> located_percent(const SweepRow& row) {
@@ -113,7 +113,7 @@ Scale number_scale(const KeyAxis& axis) {
 
 std::vector<std::string> category_names(const std::vector<std::string>& values,
                                         std::size_t panels) {
-  const std::size_t most = most_category_name(values.size(), panels);
+  const std::size_t most = max_category_name(values.size(), panels);
   const bool fit = std::all_of(values.begin(), values.end(),
                                [&](const std::string& value) { return length_of(value) <= most; });
   std::vector<std::string> names;
@@ -141,10 +141,10 @@ PanelForm form_of(const KeyAxis& axis, std::size_t panels) {
 std::string numbers_text(const KeyAxis& axis, const PanelForm& form) {
   if (form.categories.empty() || form.categories == axis.values) return "";
   std::string text;
-  for (std::size_t i = 0; i < std::min(axis.values.size(), kMostPanels); ++i) {
+  for (std::size_t i = 0; i < std::min(axis.values.size(), kMaxPanels); ++i) {
     text += fmt::format("{}{}: {}", i == 0 ? " " : ", ", i + 1, shortened(axis.values[i], 40));
   }
-  return text + (axis.values.size() > kMostPanels ? ", …" : "");
+  return text + (axis.values.size() > kMaxPanels ? ", …" : "");
 }
 
 std::size_t series_of_row(const SweepResults& results, const SweepRow& row) {
@@ -225,9 +225,9 @@ Multiples panels_of_grid(const SweepResults& results, const Metric& metric) {
           mark_of_row(results, row, metric, *measured, axis.place(value_at(point, x_key))));
     }
   }
-  if (all.panels.size() > kMostPanels) {
-    all.caption = fmt::format(" The first {} of {} panels.", kMostPanels, all.panels.size());
-    all.panels.resize(kMostPanels);
+  if (all.panels.size() > kMaxPanels) {
+    all.caption = fmt::format(" The first {} of {} panels.", kMaxPanels, all.panels.size());
+    all.panels.resize(kMaxPanels);
   }
   PanelForm form = form_of(axis, all.panels.size());
   form.x_title = x_key;
@@ -239,10 +239,10 @@ Multiples panels_of_grid(const SweepResults& results, const Metric& metric) {
 
 Multiples panels_by_key(const SweepResults& results, const Metric& metric) {
   Multiples all;
-  const std::size_t step = thinning(results.rows.size(), kMostMarks);
+  const std::size_t step = thinning(results.rows.size(), kMaxMarks);
   if (step > 1) all.caption = fmt::format(" One in {} of the points is drawn.", step);
   for (const std::string& key : results.plan.keys) {
-    if (all.panels.size() == kMostPanels) break;
+    if (all.panels.size() == kMaxPanels) break;
     const KeyAxis axis = key_axis(results.plan, key);
     Panel panel{key, {}};
     for (std::size_t i = 0; i < results.rows.size(); i += step) {
@@ -285,7 +285,7 @@ Multiples multiples_of(const SweepResults& results, const Metric& metric) {
   const SweepPlan& plan = results.plan;
   if (plan.keys.empty()) return panel_of_conditions(results, metric);
   const bool grid = std::holds_alternative<GridDesign>(plan.suite.sweep->points);
-  if (grid && plan.keys.size() <= kMostGridKeys) return panels_of_grid(results, metric);
+  if (grid && plan.keys.size() <= kMaxGridKeys) return panels_of_grid(results, metric);
   return panels_by_key(results, metric);
 }
 
@@ -310,7 +310,7 @@ std::vector<LegendEntry> legend_of_methods(const SweepResults& results) {
   std::vector<LegendEntry> legend;
   for (const SuiteMethod& method : results.plan.suite.methods) {
     legend.push_back({Symbol::kSquare, fmt::format("dot{}", legend.size() % kSeriesColors),
-                      shortened(method.name, kMostTitle)});
+                      shortened(method.name, kMaxTitle)});
   }
   return legend;
 }
@@ -341,7 +341,7 @@ Figure figure_of(const SweepResults& results, const Metric& metric) {
     form.y = *upwards;
     form.y_title = metric.axis + (metric.logarithmic ? ", logarithmic" : "");
   }
-  for (Panel& panel : all.panels) panel.title = shortened(panel.title, kMostTitle);
+  for (Panel& panel : all.panels) panel.title = shortened(panel.title, kMaxTitle);
   const double top = draw_legend(figure.svg, legend_of_methods(results)) + 4.0;
   draw_panels(figure.svg, all.panels, all.forms, top);
   figure.data = data_of_panels(all.panels, legend_of_methods(results));

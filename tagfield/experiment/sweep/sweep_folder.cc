@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kSourceFile = "sweep.json";
 constexpr const char* kRungsFile = "rungs.json";
-constexpr std::size_t kMostSourceBytes = 64'000'000;
+constexpr std::size_t kMaxSourceBytes = 64'000'000;
 
 std::string path_in(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
@@ -42,7 +42,7 @@ void publish(const std::string& path, const std::string& text) {
 }
 
 nlohmann::ordered_json read_json_of(const std::string& path) {
-  auto json = nlohmann::ordered_json::parse(read_text_file(path, kMostSourceBytes), nullptr, false);
+  auto json = nlohmann::ordered_json::parse(read_text_file(path, kMaxSourceBytes), nullptr, false);
   if (!json.is_object()) fail({path, 0}, "is damaged: it is not a JSON object");
   return json;
 }

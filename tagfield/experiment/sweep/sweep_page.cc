@@ -16,9 +16,9 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostPageRows = 200;
-constexpr std::size_t kMostPageFailures = 50;
-constexpr std::size_t kMostCell = 28;
+constexpr std::size_t kMaxPageRows = 200;
+constexpr std::size_t kMaxPageFailures = 50;
+constexpr std::size_t kMaxCell = 28;
 
 const std::optional<Halving>& halving_in(const SweepResults& results) {
   static const std::optional<Halving> none;
@@ -73,7 +73,7 @@ std::string sweep_failures(const SweepResults& results) {
   std::string html =
       "<div class=\"note\"><p><strong>Runs that failed</strong>, and how to run each again "
       "(<code>--again failed</code> for all)</p><ul>\n";
-  for (std::size_t i = 0; i < std::min(results.failed.size(), kMostPageFailures); ++i) {
+  for (std::size_t i = 0; i < std::min(results.failed.size(), kMaxPageFailures); ++i) {
     const FailedRun& run = results.failed[i];
     html += fmt::format(
         "<li>{}, seed {}: {}<br><code>tagfield sweep SUITE --out DIR --again {}"
@@ -81,9 +81,9 @@ std::string sweep_failures(const SweepResults& results) {
         escaped(results.plan.points[run.key.point].name), run.key.seed, escaped(run.reason),
         to_string(run.key));
   }
-  if (results.failed.size() > kMostPageFailures) {
+  if (results.failed.size() > kMaxPageFailures) {
     html +=
-        fmt::format("<li>… and {} more</li>\n", grouped(results.failed.size() - kMostPageFailures));
+        fmt::format("<li>… and {} more</li>\n", grouped(results.failed.size() - kMaxPageFailures));
   }
   return html + "</ul></div>\n";
 }
@@ -137,13 +137,13 @@ std::string ratio_cell(const std::optional<double>& ratio) {
 std::string sweep_row(const SweepResults& results, const SweepRow& row) {
   const SweepPoint& point = results.plan.points[row.point];
   std::string html = fmt::format("<tr><th scope=\"row\" title=\"point {}\"><bdi>{}</bdi></th>",
-                                 row.point, escaped(shortened(row.name, kMostCell)));
+                                 row.point, escaped(shortened(row.name, kMaxCell)));
   if (names_conditions(results)) {
     const std::string& name = results.plan.suite.conditions[point.condition].name;
-    html += "<td class=\"words\">" + escaped(shortened(name, kMostCell)) + "</td>";
+    html += "<td class=\"words\">" + escaped(shortened(name, kMaxCell)) + "</td>";
   }
   for (const std::string& key : results.plan.keys) {
-    html += plain_cell(escaped(shortened(value_at(point, key), kMostCell)));
+    html += plain_cell(escaped(shortened(value_at(point, key), kMaxCell)));
   }
   if (results.rungs > 1) html += plain_cell(grouped(rung_of(results, row.point) + 1));
   return html + plain_cell(grouped(row.runs)) +
@@ -164,7 +164,7 @@ std::string order_text(const SweepResults& results) {
 
 std::string sweep_table(const SweepResults& results) {
   const std::vector<const SweepRow*> rows = best_first(results);
-  const std::size_t shown = std::min(rows.size(), kMostPageRows);
+  const std::size_t shown = std::min(rows.size(), kMaxPageRows);
   std::string html =
       "<div class=\"table\" role=\"region\" aria-label=\"Results\" tabindex=\"0\"><table>\n" +
       sweep_head(results) + "<tbody>\n";

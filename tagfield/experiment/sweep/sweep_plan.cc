@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostPoints = 1'000'000;
+constexpr std::size_t kMaxPoints = 1'000'000;
 
 using Settings = std::vector<Override>;
 
@@ -45,8 +45,8 @@ std::vector<std::string> values_of(const SweptKey& key) {
 }
 
 void require_few(std::size_t points, const Location& location) {
-  if (points <= kMostPoints) return;
-  fail(location, fmt::format("the sweep has over {} points", kMostPoints));
+  if (points <= kMaxPoints) return;
+  fail(location, fmt::format("the sweep has over {} points", kMaxPoints));
 }
 
 std::vector<Settings> settings_of(const GridDesign& grid, const Location& location) {

@@ -13,8 +13,8 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostTextRows = 20;
-constexpr std::size_t kMostPointName = 60;
+constexpr std::size_t kMaxTextRows = 20;
+constexpr std::size_t kMaxPointName = 60;
 
 std::string in_mm(const std::optional<ErrorStatistics>& errors, double ErrorStatistics::*of) {
   return errors ? fmt::format("{:.1f}", 1e3 * (*errors).*of) : "-";
@@ -26,9 +26,9 @@ std::string padded_to(const std::string& text, std::size_t width) {
 
 std::string text_row(const SweepResults& results, const SweepRow& row, std::size_t points,
                      std::size_t names) {
-  const std::string point = shortened(results.plan.points[row.point].name, kMostPointName);
+  const std::string point = shortened(results.plan.points[row.point].name, kMaxPointName);
   std::string text = fmt::format("  {}  {} {:>6} {:>9} {:>8}", padded_to(point, points),
-                                 padded_to(shortened(row.name, kMostPointName), names), row.runs,
+                                 padded_to(shortened(row.name, kMaxPointName), names), row.runs,
                                  fmt::format("{}/{}", row.located, row.tags),
                                  in_mm(row.error_m, &ErrorStatistics::mean));
   text += fmt::format(
@@ -63,13 +63,13 @@ std::vector<const SweepRow*> best_first(const SweepResults& results) {
 
 std::string sweep_to_text(const SweepResults& results) {
   const std::vector<const SweepRow*> rows = best_first(results);
-  const std::size_t shown = std::min(rows.size(), kMostTextRows);
+  const std::size_t shown = std::min(rows.size(), kMaxTextRows);
   std::size_t points = 5;
   std::size_t names = 6;
   for (std::size_t i = 0; i < shown; ++i) {
     const std::string& point = results.plan.points[rows[i]->point].name;
-    points = std::max(points, length_of(shortened(point, kMostPointName)));
-    names = std::max(names, length_of(shortened(rows[i]->name, kMostPointName)));
+    points = std::max(points, length_of(shortened(point, kMaxPointName)));
+    names = std::max(names, length_of(shortened(rows[i]->name, kMaxPointName)));
   }
   std::string text = fmt::format("{}: {}, {} (errors in mm)\n", clean_text(results.plan.suite.name),
                                  counted(results.plan.points.size(), "point"),

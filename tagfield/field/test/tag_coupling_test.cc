@@ -108,8 +108,8 @@ TEST(TagCouplings, TakeTheNearestOfACrowd) {
   TagCouplings couplings;
   couplings.see(tags);
   const CoupledTag crowded = couplings.of(0, kLambda);
-  ASSERT_EQ(crowded.neighbours.size(), kMostNeighbours);
-  EXPECT_EQ(crowded.neighbours.back().first, kMostNeighbours);
+  ASSERT_EQ(crowded.neighbours.size(), kMaxNeighbours);
+  EXPECT_EQ(crowded.neighbours.back().first, kMaxNeighbours);
 }
 
 /// Power radiated by vertical half-wave dipoles at `places` with currents `c`, relative to that of

@@ -59,12 +59,12 @@ RC_GTEST_PROP(ReadTags, ReportOnlyWhatReachesTheSensitivity, ()) {
   AntennaParameters parameters = antenna();
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
   const std::vector<TagReply> all = replies_of(parameters, kOrigin, Time{}, seed, tags);
-  const double least_dbm = *rc::gen::inRange(-100, -20);
-  paper(parameters).sensitivity_dbm = least_dbm;
+  const double min_dbm = *rc::gen::inRange(-100, -20);
+  paper(parameters).sensitivity_dbm = min_dbm;
   const std::vector<TagReply> heard = replies_of(parameters, kOrigin, Time{}, seed, tags);
   std::size_t next = 0;
   for (const TagReply& reply : all) {
-    if (reply.rssi_dbm < least_dbm) continue;
+    if (reply.rssi_dbm < min_dbm) continue;
     RC_ASSERT(next < heard.size());
     RC_ASSERT(heard[next].slot == reply.slot);
     RC_ASSERT(heard[next].phase_rad == reply.phase_rad);

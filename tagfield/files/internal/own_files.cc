@@ -13,7 +13,7 @@ namespace tagfield::files_internal {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostListBytes = 10'000'000;
+constexpr std::size_t kMaxListBytes = 10'000'000;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ std::string own_list_of(const OwnFiles& files) {
 OwnFiles read_own_list(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return {};
-  std::istringstream text(read_text_file(path.string(), kMostListBytes));
+  std::istringstream text(read_text_file(path.string(), kMaxListBytes));
   OwnFiles files;
   int line = 0;
   for (std::string name; std::getline(text, name);) {

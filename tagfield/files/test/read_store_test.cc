@@ -87,9 +87,9 @@ RC_GTEST_PROP(ReadStore, GivesBackEachTagsReadsInOnePart, ()) {
     }
     // A part is no larger than requested, except for a single tag or if there would be too many
     // parts.
-    const std::size_t most = std::max(of_part, reads.size() / kMostParts + 1);
+    const std::size_t most = std::max(of_part, reads.size() / kMaxParts + 1);
     RC_ASSERT(counted <= most || part.size() - everywhere.size() == 1U ||
-              store.parts() == kMostParts);
+              store.parts() == kMaxParts);
   }
   RC_ASSERT(found.size() == expected.size());
   for (const auto& [tag, parts] : found) {

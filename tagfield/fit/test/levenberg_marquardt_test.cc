@@ -55,14 +55,14 @@ TEST(LevenbergMarquardt, FitsALineAsTheClosedFormDoes) {
 }
 
 TEST(LevenbergMarquardt, FollowsRosenbrocksValley) {
-  const Point best = descended(in_valley, {-1.2, 1.0}, {.most_steps = 100});
+  const Point best = descended(in_valley, {-1.2, 1.0}, {.max_steps = 100});
   EXPECT_LT((best.x - Vector2d(1.0, 1.0)).norm(), 1e-8);
 }
 
 TEST(LevenbergMarquardt, NeverGoesUphill) {
   double before = in_valley({-1.2, 1.0}).cost;
   for (int steps = 1; steps < 20; ++steps) {
-    const double cost = descended(in_valley, {-1.2, 1.0}, {.most_steps = steps}).cost;
+    const double cost = descended(in_valley, {-1.2, 1.0}, {.max_steps = steps}).cost;
     EXPECT_LE(cost, before) << steps;
     before = cost;
   }
@@ -78,7 +78,7 @@ TEST(LevenbergMarquardt, RefusesWhatIsNoNumber) {
     last_damping = damping;
     return Place{here.x + 1.0, std::nan("")};
   };
-  const Place best = descend(Place{3.0, 7.0}, {.damping = 1.0, .most_damping = 500.0}, step);
+  const Place best = descend(Place{3.0, 7.0}, {.damping = 1.0, .max_damping = 500.0}, step);
   EXPECT_EQ(best.x, 3.0);
   EXPECT_EQ(last_damping, 100.0);
 }
@@ -92,8 +92,8 @@ TEST(LevenbergMarquardt, EndsAtTheLeastGain) {
   const auto halved = [](const Place& here, double) -> std::optional<Place> {
     return Place{here.x + 1.0, 0.5 * here.cost};
   };
-  EXPECT_EQ(descend(Place{0.0, 1.0}, {.least_gain = 0.1}, halved).x, 4.0);
-  EXPECT_EQ(descend(Place{0.0, 64.0}, {.least_relative_gain = 0.9}, halved).x, 7.0);
+  EXPECT_EQ(descend(Place{0.0, 1.0}, {.min_gain = 0.1}, halved).x, 4.0);
+  EXPECT_EQ(descend(Place{0.0, 64.0}, {.min_relative_gain = 0.9}, halved).x, 7.0);
 }
 
 TEST(Damped, HasMoreOnItsDiagonal) {

@@ -38,7 +38,7 @@ TEST(RandomPhases, AreBelievedInOneCaseOfAHundredAtMost) {
   for (const std::size_t count : {3U, 5U, 10U, 30U, 100U}) {
     int believed = 0;
     for (int i = 0; i < 10'000; ++i) {
-      believed += evidence_of(draw(rng, count, 0.0)) >= kLeastEvidence ? 1 : 0;
+      believed += evidence_of(draw(rng, count, 0.0)) >= kMinEvidence ? 1 : 0;
     }
     EXPECT_LE(believed, 100) << count << " reads";
   }
@@ -48,7 +48,7 @@ TEST(RandomPhases, OfAModelThatHoldsAreTold) {
   std::mt19937_64 rng(2);
   int believed = 0;
   for (int i = 0; i < 1'000; ++i) {
-    believed += evidence_of(draw(rng, 10, 0.2)) >= kLeastEvidence ? 1 : 0;
+    believed += evidence_of(draw(rng, 10, 0.2)) >= kMinEvidence ? 1 : 0;
   }
   EXPECT_GE(believed, 990);
 }

@@ -26,10 +26,10 @@ TEST(LaserScan, ZeroIsInvalidEvenWhereTheLeastRangeIsZero) {
 }
 
 TEST(LaserScan, TheRangeThatStandsForNothingSaysSo) {
-  for (const double most_m : {0.1, 1.0, 5.6, 30.0, 1000.0, 1e6}) {
+  for (const double max_m : {0.1, 1.0, 5.6, 30.0, 1000.0, 1e6}) {
     LaserScan scan;
-    scan.max_range_m = most_m;
-    EXPECT_EQ(beam_of(scan, nothing_range(most_m)), Beam::kNothing) << most_m;
+    scan.max_range_m = max_m;
+    EXPECT_EQ(beam_of(scan, nothing_range(max_m)), Beam::kNothing) << max_m;
   }
 }
 

@@ -215,7 +215,7 @@ TEST(SimulatedLaser, EachBeamLeavesFromWhereTheScannerIsThen) {
   const LaserScan scan = simulate_scan(RayScene(room()), laser, number, motion, nullptr, 1, 2);
   EXPECT_EQ(scan.stamp, scan_stamp(laser, number));
   EXPECT_NEAR(to_seconds(scan.beam_interval), 0.025 / 719.0, 1e-9);
-  double most_moved = 0.0;
+  double max_moved = 0.0;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const double t = to_seconds(scan.stamp) + static_cast<double>(i) * 0.025 / 719.0;
     const double yaw = 0.2 + 3.0 * t;
@@ -226,10 +226,10 @@ TEST(SimulatedLaser, EachBeamLeavesFromWhereTheScannerIsThen) {
     const double yaw_0 = 0.2 + 3.0 * still;
     const Eigen::Vector2d p_0(-1.0 + 1.5 * still + 0.15 * std::cos(yaw_0),
                               0.5 + 0.15 * std::sin(yaw_0));
-    most_moved = std::max(most_moved,
-                          std::abs(scan.ranges_m[i] - to_wall(p_0, yaw_0 + beam_angle(scan, i))));
+    max_moved =
+        std::max(max_moved, std::abs(scan.ranges_m[i] - to_wall(p_0, yaw_0 + beam_angle(scan, i))));
   }
-  EXPECT_GT(most_moved, 0.1);  // Otherwise, this test would show nothing.
+  EXPECT_GT(max_moved, 0.1);  // Otherwise, this test would show nothing.
 }
 
 TEST(SimulatedLaser, AsksForPosesWithinTheSweepAndInOrder) {

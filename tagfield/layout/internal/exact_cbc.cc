@@ -14,9 +14,9 @@ namespace tagfield {
 namespace {
 
 /// The logarithm of an option that never misses would be unbounded.
-constexpr double kMostLog = 30.0;
+constexpr double kMaxLog = 30.0;
 constexpr double kTouching = 1e-7;
-constexpr int kMostRounds = 200;
+constexpr int kMaxRounds = 200;
 
 struct DeleteModel {
   void operator()(Cbc_Model* model) const { libcbc().deleteModel(model); }
@@ -35,7 +35,7 @@ struct Row {
 };
 
 double log_of(const Miss& miss) {
-  return std::min(kMostLog, -std::log(std::max(static_cast<double>(miss.probability), 1e-300)));
+  return std::min(kMaxLog, -std::log(std::max(static_cast<double>(miss.probability), 1e-300)));
 }
 
 /// Columns: one per option (0 or 1), then one per element (its worth, up to cap), then one per zone
@@ -259,7 +259,7 @@ ExactChoice Program::solve(double seconds) {
   const Clock::time_point begin = Clock::now();
   double most = score_of(problem_, best_);
   double bound = 1.0;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
     if (spent >= seconds) break;
     const Solved solved = solve_once(seconds - spent);

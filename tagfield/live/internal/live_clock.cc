@@ -5,7 +5,7 @@ namespace tagfield {
 namespace {
 
 /// Lag above which the simulation does not catch up.
-constexpr std::chrono::milliseconds kMostLag(500);
+constexpr std::chrono::milliseconds kMaxLag(500);
 constexpr std::chrono::seconds kPaceOver(1);
 
 double seconds(LiveClock::Wall::duration duration) {
@@ -53,7 +53,7 @@ LiveClock::Wall LiveClock::due(Time end) const {
 }
 
 void LiveClock::stepped(Time now, Wall wall) {
-  if (wall > due(now) + kMostLag) anchor(now, wall);
+  if (wall > due(now) + kMaxLag) anchor(now, wall);
   const Wall::duration passed = wall - second_wall_;
   if (passed < kPaceOver) return;
   pace_ = to_seconds(now - second_) / seconds(passed);

@@ -8,9 +8,9 @@ namespace tagfield {
 namespace {
 
 /// Fewer new reads would hardly change an estimate.
-constexpr std::size_t kLeastFresh = 5;
+constexpr std::size_t kMinFresh = 5;
 /// Least number of reads kept per tag, however many tags there are.
-constexpr std::size_t kLeastShare = 100;
+constexpr std::size_t kMinShare = 100;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ std::uint32_t ReadWindow::antenna_number(const std::string& name) {
 }
 
 std::size_t ReadWindow::share() const {
-  return std::max(kLeastShare, most_reads_ / std::max<std::size_t>(1, tags_.size()));
+  return std::max(kMinShare, max_reads_ / std::max<std::size_t>(1, tags_.size()));
 }
 
 void ReadWindow::drop_oldest(Tag& tag) {
@@ -96,7 +96,7 @@ std::vector<std::map<std::string, ReadWindow::Tag>::iterator> ReadWindow::due(st
   for (auto entry = tags_.begin(); entry != tags_.end(); ++entry) {
     drop_outdated(entry->second);
     const Tag& tag = entry->second;
-    if (tag.fresh >= kLeastFresh && 10 * tag.fresh >= tag.reads.size()) all.push_back(entry);
+    if (tag.fresh >= kMinFresh && 10 * tag.fresh >= tag.reads.size()) all.push_back(entry);
   }
   const auto share_of_fresh = [](const Tag& tag) {
     return static_cast<double>(tag.fresh) / static_cast<double>(tag.reads.size());

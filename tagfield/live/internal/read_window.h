@@ -22,11 +22,11 @@ struct WindowedReads {
   std::vector<AntennaPose> poses;
 };
 
-/// Keeps the reads and poses within `length` of the newest timestamp, at most `most_reads` reads in
+/// Keeps the reads and poses within `length` of the newest timestamp, at most `max_reads` reads in
 /// all, divided equally among the tags, but at least 100 each. A tag loses its oldest reads first.
 class ReadWindow {
  public:
-  ReadWindow(Duration length, std::size_t most_reads) : length_(length), most_reads_(most_reads) {}
+  ReadWindow(Duration length, std::size_t max_reads) : length_(length), max_reads_(max_reads) {}
 
   void add(const TagRead& read);
   /// Adds an antenna's pose X_WA. For a fixed antenna only the last one counts, and reads from
@@ -65,7 +65,7 @@ class ReadWindow {
   [[nodiscard]] std::vector<std::map<std::string, Tag>::iterator> due(std::size_t most);
 
   Duration length_;
-  std::size_t most_reads_;
+  std::size_t max_reads_;
   std::size_t size_ = 0;  ///< Total number of reads.
   Time newest_{};
   Time swept_{};

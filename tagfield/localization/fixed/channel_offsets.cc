@@ -229,7 +229,7 @@ bool is_out_of_order(const std::vector<std::vector<FixedReads>>& tags) {
 }
 
 RangeLikelihood range_likelihood(const FixedReads& reads, const ChannelTurns& offsets,
-                                 const PhaseField& field, double most_m, double step_m) {
+                                 const PhaseField& field, double max_m, double step_m) {
   const auto of_antenna = offsets.find(reads.antenna);
   if (of_antenna == offsets.end()) return {};
   const Channels channels = channels_of(reads, of_antenna->second);
@@ -241,7 +241,7 @@ RangeLikelihood range_likelihood(const FixedReads& reads, const ChannelTurns& of
   const double log_det = 2.0 * root.matrixLLT().diagonal().real().array().log().sum();
   const auto form = form_by_difference(channels, inverse);
   RangeLikelihood likelihood{0.0, step_m, {}};
-  likelihood.log.resize(static_cast<Eigen::Index>(most_m / step_m) + 2);
+  likelihood.log.resize(static_cast<Eigen::Index>(max_m / step_m) + 2);
   for (Eigen::Index k = 0; k < likelihood.log.size(); ++k) {
     const double distance = static_cast<double>(k) * step_m;
     double square = 0.0;

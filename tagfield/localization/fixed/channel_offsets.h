@@ -49,7 +49,7 @@ struct RangeLikelihood {
 /// the logarithm of the complex normal density: only one of the two quadratures is observed). Empty
 /// if fewer than three channels have offsets.
 RangeLikelihood range_likelihood(const FixedReads& reads, const ChannelTurns& offsets,
-                                 const PhaseField& field, double most_m, double step_m);
+                                 const PhaseField& field, double max_m, double step_m);
 
 /// Maximum of the log-likelihood within `reach_m` of the distance.
 double most_likely(const RangeLikelihood& of, double distance_m, double reach_m);

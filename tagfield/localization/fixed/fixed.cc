@@ -41,7 +41,7 @@ TagEstimate located(const LocalizationProblem& problem, const FixedScene& scene,
                                    "exchanged: are ports or poses mixed up?",
                                    scene.swapped));
   }
-  if (scene.law.evidence < kLeastLogEvidence) {
+  if (scene.law.evidence < kMinLogEvidence) {
     return not_located(
         std::move(estimate),
         fmt::format("RSSI of all tags shows no significant dependence on distance; {}", kHelp));

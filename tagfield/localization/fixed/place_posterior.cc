@@ -13,7 +13,7 @@ constexpr double kNegligible = 12.0;  ///< Cells this far below the best [ln] ar
 constexpr double kUncovered = 6.0;    ///< Cells this far below the best belong to no part.
 constexpr std::size_t kMany = 6000;   ///< With more cells, none is split further.
 constexpr double kFinest = 2e-3;      ///< [m]
-constexpr double kLeastPart = 0.03;   ///< Minimum share of a reported part.
+constexpr double kMinPart = 0.03;     ///< Minimum share of a reported part.
 
 void keep(AreaCells& cells, const Eigen::ArrayXd& logs, double below) {
   const double least = logs.maxCoeff() - below;
@@ -110,7 +110,7 @@ std::vector<PosteriorPart> posterior_parts(AreaCells cells, const LogDensity& lo
   std::vector<PosteriorPart> parts;
   for (int i = 0; i < count; ++i) {
     const PosteriorPart part = part_of(cells, weights, numbers, i);
-    if (part.share >= kLeastPart) parts.push_back(part);
+    if (part.share >= kMinPart) parts.push_back(part);
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const auto& a, const auto& b) { return a.share > b.share; });

@@ -24,9 +24,9 @@ namespace {
 constexpr double kSameMaximum = 0.03;  ///< Maxima closer than this are the same [m].
 /// Minimum share of the best coherence before the climb; lower ones are side lobes.
 constexpr double kWorthWhile = 0.4;
-constexpr std::size_t kMirrored = 3;    ///< Number of best positions whose mirror images are tried.
-constexpr std::size_t kMostNamed = 16;  ///< Maximum number of maxima considered.
-constexpr double kSameLobes = 0.3;      ///< Maxima closer than this are lobes of one position [m].
+constexpr std::size_t kMirrored = 3;   ///< Number of best positions whose mirror images are tried.
+constexpr std::size_t kMaxNamed = 16;  ///< Maximum number of maxima considered.
+constexpr double kSameLobes = 0.3;     ///< Maxima closer than this are lobes of one position [m].
 constexpr double kOtherPlace = 4.0;  ///< Maxima with a log-likelihood lower by this are ruled out.
 
 /// Direction of S, by which the phasors are rotated back; 1 where the offset is known.
@@ -131,7 +131,7 @@ std::vector<Maximum> distinct(const TagPhases& phases, const HeightModel& height
       return (to_position(height, other.place) - to_position(height, maximum.place)).norm() >
              kSameMaximum;
     });
-    if (apart && kept.size() < kMostNamed) kept.push_back(maximum);
+    if (apart && kept.size() < kMaxNamed) kept.push_back(maximum);
   }
   return kept;
 }
@@ -206,10 +206,10 @@ Unlikelihood by_coherence(const TagPhases& phases, const Maximum& best,
 /// fit absorbs part of slow errors.
 Unlikelihood by_stated_poses(const TagPhases& phases, const HeightModel& height,
                              const Eigen::ArrayXd& residuals) {
-  constexpr double kLeastWhite = 0.25;
+  constexpr double kMinWhite = 0.25;
   const double all = residual_variance(phases.spans, residuals);
   const double slow = phases.pose_error->sigma_m * phases.pose_error->sigma_m;
-  const double white = std::max(kLeastWhite * all, all - slow);
+  const double white = std::max(kMinWhite * all, all - slow);
   const double least = pose_misfit(phases, residuals, white);
   return [&phases, &height, white, least](const Maximum& maximum) {
     return 0.5 * (pose_misfit(phases, residuals_at(phases, height, maximum), white) - least);
@@ -307,11 +307,8 @@ PositionVector climb(const TagPhases& phases, const std::vector<Aperture>& parts
   constexpr double kNoGain = 1e-5;      // of a coherence of many reads
   constexpr double kLongestStep = 0.3;  // [m]; longer ones reach another lobe
   constexpr double kRidge = 1e-9;
-  constexpr LevenbergMarquardt kHow{.most_steps = 40,
-                                    .damping = 1e-4,
-                                    .least_damping = 1e-12,
-                                    .raise = 8.0,
-                                    .least_raised = 1e-3};
+  constexpr LevenbergMarquardt kHow{
+      .max_steps = 40, .damping = 1e-4, .min_damping = 1e-12, .raise = 8.0, .min_raised = 1e-3};
   const auto step = [&](const Summit& here, double damping) -> std::optional<Summit> {
     PositionVector move = solve_symmetric(damped(here.information, damping, kRidge), here.gradient);
     if (!is_worthwhile(move, kTolerance) || here.gradient.dot(move) < kNoGain) return std::nullopt;

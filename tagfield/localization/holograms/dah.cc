@@ -16,7 +16,7 @@ namespace {
 constexpr double kGridNoise = 0.35;
 constexpr Eigen::Index kLongAperture = 64;  ///< Reads from which several references are used.
 constexpr Eigen::Index kReferences = 4;
-constexpr double kLeastNoise = 1e-3;     ///< Of a phase [rad], if none is observed.
+constexpr double kMinNoise = 1e-3;       ///< Of a phase [rad], if none is observed.
 constexpr int kDraws = 16;               ///< Noise realizations that give the expected error.
 constexpr std::size_t kFinished = 6;     ///< Number of brightest positions that are refined.
 constexpr double kFirstSpacing = 0.012;  ///< Of the tile that searches for the summit [m].
@@ -65,11 +65,11 @@ void lay_tile(const Eigen::Vector2d& p, double spacing, Tile& x, Tile& y) {
 
 /// Summit near `p`, relative to the reads' middle.
 Eigen::Vector2d summit(const SearchReads& reads, double noise_rad, Eigen::Vector2d p) {
-  constexpr int kMostMoves = 30;
+  constexpr int kMaxMoves = 30;
   Tile x;
   Tile y;
   double spacing = kFirstSpacing;
-  for (int move = 0; move < kMostMoves && spacing > kLastSpacing; ++move) {
+  for (int move = 0; move < kMaxMoves && spacing > kLastSpacing; ++move) {
     lay_tile(p, spacing, x, y);
     Eigen::Index best = 0;
     differential_brightness(reads, noise_rad, x, y).maxCoeff(&best);
@@ -153,7 +153,7 @@ TagEstimate locate_by_differences(const LocalizationProblem& problem, const std:
                                const PositionVector& place) {
     RandomStream stream(0, Purpose::kTagSearch, stream_key(tag));
     return error_factor(phases, place, to_position(height, place).z(), noise,
-                        largest_phase_noise(samples, kLeastNoise), stream);
+                        largest_phase_noise(samples, kMinNoise), stream);
   };
   const Brightness brightness{[&](const SearchReads& reads, const Tile& x, const Tile& y) {
     return differential_brightness(reads, grid_noise, x, y);

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostKept = 250;  ///< Maximum number of cells of a level that are split.
+constexpr std::size_t kMaxKept = 250;  ///< Maximum number of cells of a level that are split.
 constexpr std::size_t kFewestKept = 100;
 constexpr float kBrightEnough = 0.6f;  ///< Of the brightest.
 constexpr double kBoxesApart = 0.05;   ///< Maxima closer than this are the same [m].
@@ -172,7 +172,7 @@ bool is_brighter(const SearchCell& a, const SearchCell& b) {
 
 /// Keeps the brightest tenth, but not fewer cells than are split.
 void keep_brightest(Cells& cells) {
-  const std::size_t left = std::max((cells.size() + kOneOf - 1) / kOneOf, kMostKept);
+  const std::size_t left = std::max((cells.size() + kOneOf - 1) / kOneOf, kMaxKept);
   if (left >= cells.size()) return;
   const auto end = cells.begin() + static_cast<std::ptrdiff_t>(left);
   std::nth_element(cells.begin(), end, cells.end(), is_brighter);
@@ -192,7 +192,7 @@ Cells first_cells(const Grid& grid, const PlaneInReach& in_reach, const GridPres
 
 /// The bright cells, each split.
 Cells split(Cells cells) {
-  const std::size_t most = std::min(cells.size(), kMostKept);
+  const std::size_t most = std::min(cells.size(), kMaxKept);
   std::partial_sort(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(most), cells.end(),
                     is_brighter);
   Cells finer;

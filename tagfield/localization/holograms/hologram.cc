@@ -18,7 +18,7 @@ namespace {
 constexpr double kFirstAperture = 1.5;  ///< [λ]
 constexpr double kFinestCell = 0.1;     ///< [λ]
 constexpr double kThoroughCell = 0.16;  ///< Half of a lobe's width [λ].
-constexpr double kMostCells = 1000.0;   ///< From the middle to the edge of a grid.
+constexpr double kMaxCells = 1000.0;    ///< From the middle to the edge of a grid.
 
 /// Position that the fit reaches from `place` over growing apertures.
 PositionVector climb_gradually(const TagPhases& phases, const HeightModel& height,
@@ -61,7 +61,7 @@ GridPreselection glances_by(const TagPhases& phases, double height, const Eigen:
 }  // namespace
 
 void check_cells(const SearchOptions& options) {
-  if (options.max_range_m / options.cell_m > kMostCells) {
+  if (options.max_range_m / options.cell_m > kMaxCells) {
     throw Error("cell_m must be at least a thousandth of max_range_m");
   }
 }
@@ -133,7 +133,7 @@ std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height
   const TagPhases coarse =
       thinned(phases, options.thorough ? (options.reads + 1) / 2 : options.reads);
   const Eigen::Vector2d middle = middle_of(phases);
-  const double whole_cell = std::max(kThoroughCell * lambda, options.max_range_m / kMostCells);
+  const double whole_cell = std::max(kThoroughCell * lambda, options.max_range_m / kMaxCells);
   const double size = options.thorough ? std::min(options.cell_m, whole_cell) : options.cell_m;
   double length = options.thorough ? kWholeAperture : kFirstAperture * lambda;
   std::vector<GridLevel> levels;

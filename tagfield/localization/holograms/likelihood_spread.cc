@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 
 constexpr double kFirstHalf = 0.45;  ///< Half of the first box's sides [m].
 constexpr double kHalfSide = 4.5;    ///< Half of the later boxes' sides [standard deviations].
-constexpr double kLeastHalf = 1e-4;  ///< [m]
-constexpr int kMostBoxes = 6;
+constexpr double kMinHalf = 1e-4;    ///< [m]
+constexpr int kMaxBoxes = 6;
 
 /// Cells of a box, an odd number along each axis.
 struct Box {
@@ -89,9 +89,9 @@ LikelihoodSpread likelihood_spread(const LogLikelihood& likelihood, const FirstB
   const Eigen::Array3i next = first.level ? Eigen::Array3i(31, 31, 1) : Eigen::Array3i(15, 15, 15);
   Box box = first_about(first.start, first.level);
   LikelihoodSpread spread = over(box, tempered(first.logs, doubt));
-  for (int i = 1; i < kMostBoxes; ++i) {
+  for (int i = 1; i < kMaxBoxes; ++i) {
     const Vector3d deviation = spread.covariance.diagonal().cwiseSqrt();
-    const Vector3d half = (kHalfSide * deviation).cwiseMax(kLeastHalf).cwiseMin(box.half);
+    const Vector3d half = (kHalfSide * deviation).cwiseMax(kMinHalf).cwiseMin(box.half);
     if ((half.head<2>().array() > 0.4 * box.half.head<2>().array()).all()) break;
     box = {spread.mean, half, next};
     if (first.level) box.half.z() = 0.0;

@@ -16,10 +16,10 @@ namespace {
 
 constexpr std::size_t kCoarseReads = 300;  ///< Reads used by short apertures.
 constexpr int kStepsOfLevel = 4;           ///< For all apertures except the whole ones.
-constexpr int kMostSteps = 60;
+constexpr int kMaxSteps = 60;
 constexpr double kEffective = 0.5;      ///< Minimum effective number of particles, relative to all.
 constexpr double kClusterRadius = 0.1;  ///< [m]
-constexpr std::size_t kMostClusters = 8;
+constexpr std::size_t kMaxClusters = 8;
 constexpr int kDrawsOfPlace = 1000;
 
 /// Positions relative to the middle of the reads and the plane of the tag [m], with their
@@ -173,7 +173,7 @@ Particles spread_and_anneal(const Search& search, const ParticleOptions& options
     const bool last = &level == &search.levels.back();
     // The particles concentrated by shorter apertures are the initial spread of this level.
     particles.coherence = coherence_of(level.reads, particles.places);
-    anneal(search, level, 0.0, last ? kMostSteps : kStepsOfLevel, particles, stream);
+    anneal(search, level, 0.0, last ? kMaxSteps : kStepsOfLevel, particles, stream);
   }
   // The last moves let the particles settle into the shape of each mode.
   for (int i = 0; i < kStepsOfLevel; ++i) {
@@ -203,7 +203,7 @@ std::vector<PositionVector> clusters_of(const Search& search, const Particles& p
       count += 1.0;
     }
     means.push_back(to_unknowns(search.height, sum / count));
-    if (means.size() == kMostClusters) break;
+    if (means.size() == kMaxClusters) break;
   }
   return means;
 }

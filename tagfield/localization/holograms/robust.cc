@@ -17,10 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFirstCell = 0.9;          ///< Of λ/2, which is one turn of phase.
-constexpr std::size_t kMaxima = 24;         ///< On each plane.
-constexpr double kOnePlace = 0.45;          ///< Maxima closer than this are one position [m].
-constexpr double kLeastProbability = 0.01;  ///< Of a candidate, relative to the best.
+constexpr double kFirstCell = 0.9;        ///< Of λ/2, which is one turn of phase.
+constexpr std::size_t kMaxima = 24;       ///< On each plane.
+constexpr double kOnePlace = 0.45;        ///< Maxima closer than this are one position [m].
+constexpr double kMinProbability = 0.01;  ///< Of a candidate, relative to the best.
 /// Objects within a wavelength of a tag shift the point that its waves appear to come from:
 /// standard deviation along each axis, chosen on twelve halls and checked on twelve others
 /// (docs/methods.md) [λ].
@@ -189,7 +189,7 @@ TagEstimate judged(const LocalizationProblem& problem, const RobustSearch& searc
   }
   for (const LikelihoodSpread& spread : spreads) {
     const double less = spread.log_mass - spreads.front().log_mass;
-    if (less < std::log(kLeastProbability)) break;
+    if (less < std::log(kMinProbability)) break;
     estimate.candidates.push_back(candidate_of(search, spread));
   }
   judge(problem.limits, estimate);

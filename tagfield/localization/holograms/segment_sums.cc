@@ -70,7 +70,7 @@ inline void add_segment(const CoherentSegment& segment, const float* reads, cons
   float share[kWaveLanes];
   store(shares, share);
   for (int k = 0; k < kWaveLanes; ++k) {
-    const float left = std::max(1.0f - share[k], kLeastLeft);
+    const float left = std::max(1.0f - share[k], kMinLeft);
     likelihood[k] -= segment.freedom * lane_log(left);
   }
 }

@@ -12,7 +12,7 @@ namespace tagfield {
 
 /// Lower bound on the share of the power that does not add up: smaller values are indistinguishable
 /// from noise.
-inline constexpr float kLeastLeft = 1e-3f;
+inline constexpr float kMinLeft = 1e-3f;
 
 /// Σ −f ln(1 − Σ_c |S_c|²/n_c / n) over `segments`, a subset of those of `reads`, at points (x, y,
 /// z) as in segment_likelihood(). Phasors outside these segments are not summed. Bit-identical for

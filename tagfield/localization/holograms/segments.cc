@@ -198,7 +198,7 @@ Tile likelihood_of(const CoherentSegment& segment, const std::vector<PieceSums>&
     reads += sum.reads;
   }
   const Tile freedom = segment.freedom / segment.reads * reads;
-  return -freedom * (1.0f - power / reads.max(1.0f)).max(kLeastLeft).log();
+  return -freedom * (1.0f - power / reads.max(1.0f)).max(kMinLeft).log();
 }
 
 /// As above, but as if only the share `left` of each read's power were noise.
@@ -211,7 +211,7 @@ Tile likelihood_with(const CoherentSegment& segment, const std::vector<PieceSums
     reads += sums[channel].reads;
   }
   const Tile freedom = segment.freedom / segment.reads * reads;
-  return -freedom * (left * (1.0f - offsets / reads.max(1.0f))).max(kLeastLeft).log();
+  return -freedom * (left * (1.0f - offsets / reads.max(1.0f))).max(kMinLeft).log();
 }
 
 std::vector<const CoherentSegment*> chosen_segments(const SegmentedReads& reads,

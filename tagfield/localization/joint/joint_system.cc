@@ -143,9 +143,9 @@ double cost_of(JointSystem& system) {
 
 double minimize(JointSystem& system, int rounds, int threads) {
   constexpr double kTolerance = 2e-6;  // [m]
-  LevenbergMarquardt how{.damping = 1e-6, .least_raised = 1e-3};
-  how.most_steps = rounds;
-  how.least_gain = 1e-4;  // 1e-4 in the cost is a hundredth of a standard deviation.
+  LevenbergMarquardt how{.damping = 1e-6, .min_raised = 1e-3};
+  how.max_steps = rounds;
+  how.min_gain = 1e-4;  // 1e-4 in the cost is a hundredth of a standard deviation.
   double length = std::numeric_limits<double>::infinity();  // Of the last step.
   const auto step = [&](const SystemPoint& here, double damping) -> std::optional<SystemPoint> {
     if (length < kTolerance) return std::nullopt;

@@ -15,7 +15,7 @@ namespace {
 
 /// Hyperbolae to start from: fewer than the paper's method needs, as the fit does the rest.
 constexpr double kStride = 0.5;  // [m]
-constexpr std::size_t kMostHyperbolae = 20;
+constexpr std::size_t kMaxHyperbolae = 20;
 /// Distance from the antennas' plane to the one in which a tag of unknown height is searched [m].
 constexpr double kLikelyOffset = 0.4;
 
@@ -69,7 +69,7 @@ UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string
   result.segments = search.segments.size();
   result.why_not = why_too_few(search);
   if (!result.why_not.empty()) return result;
-  search_positions(search, kStride, kMostHyperbolae);
+  search_positions(search, kStride, kMaxHyperbolae);
   if (search.minima.empty()) search.minima = by_waves(search, height);
   if (search.minima.empty()) {
     result.why_not = "no position explains the phase";

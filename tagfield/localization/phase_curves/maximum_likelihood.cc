@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostMinima = 4;  ///< Minima of the unwrapped fit used as starts.
+constexpr std::size_t kMaxMinima = 4;  ///< Minima of the unwrapped fit used as starts.
 /// Minima that cost this many times more than the best are not used.
 constexpr double kHopeless = 30.0;
 
@@ -48,7 +48,7 @@ std::vector<TagFit> wrapped_fits(const UnwrappedFit& unwrapped, const TagPhases&
                                      [](const auto& span) { return span.offset_known; });
   std::vector<TagFit> fits;
   for (const TagFit& from : unwrapped.fits) {
-    if (fits.size() == kMostMinima) break;
+    if (fits.size() == kMaxMinima) break;
     if (from.cost > kHopeless * unwrapped.fits.front().cost + 1.0) break;
     const Eigen::Matrix3d covariance = covariance_of(unwrapped.phases, unwrapped.height, from);
     TagFit fit = best_around(free, unwrapped.height, from, covariance);

@@ -16,7 +16,7 @@ constexpr double kUnsure = kTwoPi / 6.5;
 /// keeps turning to the same side.
 constexpr double kTurning = 0.6;       // [1/m]
 constexpr double kMoreTurning = 0.05;  // Variance [1/m].
-constexpr double kLeastNoise = 0.02;   // [rad]
+constexpr double kMinNoise = 0.02;     // [rad]
 
 /// Direction to the tag and error of the last phase, with their covariance. The error of the last
 /// phase is part of the state because the next difference contains it.
@@ -80,7 +80,7 @@ void begin_segment(const PhaseSample& sample, std::vector<PhaseSegment>& segment
 }  // namespace
 
 std::vector<PhaseSegment> follow(const std::vector<PhaseSample>& samples, double noise_rad) {
-  const double noise = std::max(noise_rad, kLeastNoise);
+  const double noise = std::max(noise_rad, kMinNoise);
   std::vector<PhaseSegment> segments;
   Follower follower;
   for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -120,7 +120,7 @@ Eigen::Vector2d refine(const TagPhases& phases, double height, const Eigen::Vect
   constexpr double kTolerance = 1e-7;  // [m]
   constexpr double kRidge = 1e-12;
   constexpr LevenbergMarquardt kHow{
-      .most_steps = 40, .damping = 1e-4, .least_damping = 1e-12, .raise = 8.0};
+      .max_steps = 40, .damping = 1e-4, .min_damping = 1e-12, .raise = 8.0};
   const auto step = [&](const PlanePoint& here, double damping) -> std::optional<PlanePoint> {
     const Eigen::Vector2d move =
         solve_symmetric(evenly_damped(here.normal, damping, kRidge), here.gradient);

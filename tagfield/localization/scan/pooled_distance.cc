@@ -6,7 +6,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeastSpread = 0.02;
+constexpr double kMinSpread = 0.02;
 constexpr Eigen::Index kSpreads = 12;
 constexpr double kTiny = 1e-300;
 
@@ -35,7 +35,7 @@ std::vector<Eigen::ArrayXd> expected_distances(const Eigen::ArrayXd& away_m,
     own.col(i) = (of / std::max(of.maxCoeff(), kTiny)).matrix();
   }
   const Eigen::ArrayXd spreads =
-      Eigen::ArrayXd::LinSpaced(kSpreads, std::log(kLeastSpread), 0.0).exp();
+      Eigen::ArrayXd::LinSpaced(kSpreads, std::log(kMinSpread), 0.0).exp();
   std::vector<Eigen::MatrixXd> abouts;
   std::vector<Eigen::ArrayXXd> evidences;  // By spread: of each tag (column) for each centre.
   Eigen::ArrayXXd all(away_m.size(), kSpreads);

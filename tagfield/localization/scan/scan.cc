@@ -39,13 +39,13 @@ Eigen::Vector2d place_of(const ScannedTag& tag, double along, double away) {
 }
 
 void look_at(const LocalizationProblem& problem, const ScanOptions& options, ScannedTag& tag) {
-  constexpr double kMostChance = 1e-4;
+  constexpr double kMaxChance = 1e-4;
   tag.scan = scan_field(problem, tag.tag, *tag.samples);
   tag.why_not = tag.scan.why_not;
   if (!tag.why_not.empty()) return;
   tag.grid = scan_grid(tag.scan, options.max_range_m);
   tag.one_path = one_path_share(tag.scan, tag.grid);
-  if (chance(tag.scan, tag.one_path) > kMostChance) {
+  if (chance(tag.scan, tag.one_path) > kMaxChance) {
     tag.why_not = "the phases carry no information: random ones fit as well";
     return;
   }
@@ -157,14 +157,14 @@ void judge(const ScanOptions& options, TagEstimate& estimate) {
 TagEstimate estimate_of(const LocalizationProblem& problem, const ScannedTag& tag,
                         const Eigen::ArrayXd& expected, const ScanOptions& options) {
   // The furthest positions represent all those further away.
-  constexpr double kMostAtEnd = 0.05;
+  constexpr double kMaxAtEnd = 0.05;
   constexpr Eigen::Index kEnd = 3;
   TagEstimate estimate = begun(tag.tag, *tag.samples);
   const double height = tag.scan.up_m + tag.samples->begin()->second.front().p_WA.z();
   for (const double side : {1.0, -1.0}) {
     const Eigen::ArrayXXd p = on_side(problem, tag, expected, side);
     if (!(p.sum() > 1e-200)) continue;
-    if (p.rightCols(kEnd).sum() > kMostAtEnd * p.sum()) {
+    if (p.rightCols(kEnd).sum() > kMaxAtEnd * p.sum()) {
       return not_located(std::move(estimate), "geometry too weak: the tag may be anywhere");
     }
     estimate.candidates.push_back(candidate_of(tag, p, side));

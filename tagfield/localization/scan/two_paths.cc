@@ -16,7 +16,7 @@ constexpr double kAlongStep = 1.0 / 13.0;  ///< [λ]
 constexpr double kAwayFactor = 1.035;
 constexpr double kOtherAlongStep = 1.0 / 3.0;  ///< Of the second path's positions [λ].
 constexpr double kOtherAwayFactor = 1.12;
-constexpr double kLeastPathLeft = 1e-6;  ///< Of the power; the limit of float precision.
+constexpr double kMinPathLeft = 1e-6;  ///< Of the power; the limit of float precision.
 constexpr Eigen::Index kBlock = 64;
 
 Eigen::ArrayXd evenly(double low, double high, double step) {
@@ -80,11 +80,10 @@ double likelihood_of(const Others& others, const Eigen::ArrayXcf& overlap, std::
     const std::complex<float> second = (others.seen[j] - std::conj(overlap[j]) * seen) / apart;
     if (std::norm(second) > std::norm(first)) continue;
     const float told = std::real(std::conj(seen) * first + std::conj(others.seen[j]) * second);
-    const float left = std::max(1.0f - told, static_cast<float>(kLeastPathLeft));
+    const float left = std::max(1.0f - told, static_cast<float>(kMinPathLeft));
     least = std::min(least, left);
     // Relative to the lower limit of the remaining power, to avoid overflow.
-    sum +=
-        others.area[j] * std::exp(exponent * std::log(kLeastPathLeft / static_cast<double>(left)));
+    sum += others.area[j] * std::exp(exponent * std::log(kMinPathLeft / static_cast<double>(left)));
   }
   return sum;
 }

@@ -17,7 +17,7 @@ namespace tagfield {
 namespace {
 
 /// Smaller distances in signal space are clamped to this [dB], to keep weights finite.
-constexpr double kLeastDistance = 0.01;
+constexpr double kMinDistance = 0.01;
 
 struct Reference {
   Eigen::Vector3d p_WT;
@@ -128,7 +128,7 @@ Candidate between(const std::vector<Neighbour>& neighbours) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   std::vector<double> weights;
   for (const Neighbour& neighbour : neighbours) {
-    weights.push_back(1.0 / std::pow(std::max(neighbour.distance_db, kLeastDistance), 2));
+    weights.push_back(1.0 / std::pow(std::max(neighbour.distance_db, kMinDistance), 2));
     sum += weights.back();
     mean += weights.back() * neighbour.reference->p_WT;
   }

@@ -24,7 +24,7 @@ constexpr double kAnything = 1e6;         ///< Expected error if nothing is know
 constexpr Eigen::Index kFewestBins = 6;
 /// Lower bound on the error of a mean of many reads [dB], due to reflections and the antenna
 /// pattern.
-constexpr double kLeastRssiNoise = 0.5;
+constexpr double kMinRssiNoise = 0.5;
 
 /// Prior of an antenna's level [dBm at 1 m].
 struct RssiLevel {
@@ -195,7 +195,7 @@ Fit refined(const Bins& bins, const Law& law, const Eigen::Vector3d& start) {
   constexpr double kTolerance = 1e-5;  // [m]
   constexpr double kRidge = 1e-9;
   constexpr double kLongestStep = 1.0;  // [m]
-  constexpr LevenbergMarquardt kHow{.most_steps = 30, .damping = 1e-3, .raise = 8.0};
+  constexpr LevenbergMarquardt kHow{.max_steps = 30, .damping = 1e-3, .raise = 8.0};
   const auto step = [&](const RssiPoint& here, double damping) -> std::optional<RssiPoint> {
     const RssiStep at = step_at(bins, law, here.p_WT, here.residuals);
     Eigen::Vector2d move = evenly_damped(at.normal, damping, kRidge).inverse() * at.gradient;
@@ -251,7 +251,7 @@ std::vector<Fit> minima_of(const Bins& bins, const Law& law, std::vector<Fit> ce
 
 /// Residual variance times the residuals' correlation factor [dB²].
 double noise_of(const Bins& bins, const Eigen::ArrayXd& residuals) {
-  return std::max(residual_variance(bins.spans, residuals), kLeastRssiNoise * kLeastRssiNoise) *
+  return std::max(residual_variance(bins.spans, residuals), kMinRssiNoise * kMinRssiNoise) *
          correlation_factor(bins.spans, residuals);
 }
 
@@ -285,7 +285,7 @@ double log_evidence(const Bins& bins, const std::vector<Fit>& cells, const Eigen
   const double without = misfit_at(unaimed, flat, cells.front().p_WT).cost;
   const auto count = static_cast<double>(best.size());
   const double half = 0.5 * count / correlation_factor(bins.spans, best);
-  const double least = count * kLeastRssiNoise * kLeastRssiNoise;
+  const double least = count * kMinRssiNoise * kMinRssiNoise;
   Eigen::ArrayXd logs(static_cast<Eigen::Index>(cells.size()));
   for (std::size_t i = 0; i < cells.size(); ++i) {
     logs[static_cast<Eigen::Index>(i)] =
@@ -403,12 +403,12 @@ double cost_of(const std::vector<Bins>& tags, const std::vector<double>& heights
 
 /// Without reference tags: the slope that fits all tags best.
 double fitted_slope(const LocalizationProblem& problem, const TrilaterationOptions& options) {
-  constexpr std::size_t kMostTags = 12;
+  constexpr std::size_t kMaxTags = 12;
   std::vector<Bins> tags;
   std::vector<double> heights;
   for (const auto& [tag, samples] : problem.samples) {
     Bins bins = bins_of(problem, samples, options);
-    if (bins.rssi.size() < kFewestBins || tags.size() == kMostTags) continue;
+    if (bins.rssi.size() < kFewestBins || tags.size() == kMaxTags) continue;
     tags.push_back(std::move(bins));
     heights.push_back(plane_height(problem, tag));
   }
@@ -463,7 +463,7 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& la
                                    "{:.1f} dB",
                                    misfit_db, options.max_misfit_db));
   }
-  if (log_evidence(bins, cells, best) < kLeastLogEvidence) {
+  if (log_evidence(bins, cells, best) < kMinLogEvidence) {
     return not_located(std::move(estimate), "RSSI shows no significant dependence on distance");
   }
   for (const Fit& fit : fits) {

@@ -12,8 +12,8 @@ namespace tagfield {
 namespace {
 
 /// Maximum side of a map; the product of two fits into an int64.
-constexpr int kMostPgmCells = 1'000'000;
-constexpr int kMostWhite = 65'535;
+constexpr int kMaxPgmCells = 1'000'000;
+constexpr int kMaxWhite = 65'535;
 
 bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f';
@@ -126,9 +126,9 @@ GreyImage read_pgm(const std::string& bytes, const std::string& file) {
     fail({file, 0}, "byte 0: is not a grey PGM image (it would begin with P5 or P2)");
   }
   GreyImage image;
-  image.width = reader.number("the width", 1, kMostPgmCells);
-  image.height = reader.number("the height", 1, kMostPgmCells);
-  image.white = reader.number("the maximum grey value", 1, kMostWhite);
+  image.width = reader.number("the width", 1, kMaxPgmCells);
+  image.height = reader.number("the height", 1, kMaxPgmCells);
+  image.white = reader.number("the maximum grey value", 1, kMaxWhite);
   if (magic == "P5") {
     read_binary(reader, image);
   } else {

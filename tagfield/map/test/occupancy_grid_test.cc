@@ -78,16 +78,16 @@ TEST(DistanceField, WithoutSourcesIsTheMost) {
 
 RC_GTEST_PROP(DistanceField, IsTheNearestOfAllSources, ()) {
   const OccupancyGrid grid = grid_of(*rc::gen::inRange(1, 40), *rc::gen::inRange(1, 40), 0.05);
-  const double most_m = 0.05 * *rc::gen::inRange(1, 60);
+  const double max_m = 0.05 * *rc::gen::inRange(1, 60);
   const int rarity = *rc::gen::inRange(2, 200);
   std::vector<bool> is_source;
   for (std::size_t i = 0; i < grid.cells.size(); ++i) {
     is_source.push_back(*rc::gen::inRange(0, rarity) == 0);
   }
-  const std::vector<float> field = distance_field(grid, is_source, most_m);
+  const std::vector<float> field = distance_field(grid, is_source, max_m);
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
-      double nearest = most_m;
+      double nearest = max_m;
       for (int v = 0; v < grid.height; ++v) {
         for (int u = 0; u < grid.width; ++u) {
           if (is_source[grid.index(u, v)]) {

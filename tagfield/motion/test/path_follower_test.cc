@@ -16,7 +16,7 @@ constexpr double kStep = 0.01;
 struct Drive {
   PlanarPose end;
   double length = 0.0;
-  double most_deviation = 0.0;  ///< From the polyline [m].
+  double max_deviation = 0.0;  ///< From the polyline [m].
   double fastest = 0.0;
   double fastest_turn = 0.0;
   bool arrived = false;
@@ -45,8 +45,8 @@ Drive drive(const PlanarPose& start, const std::vector<Eigen::Vector2d>& waypoin
     result.length += velocity.forward * kStep;
     result.fastest = std::max(result.fastest, velocity.forward);
     result.fastest_turn = std::max(result.fastest_turn, std::abs(velocity.turn));
-    result.most_deviation =
-        std::max(result.most_deviation, distance_to_polyline(path, {result.end.x, result.end.y}));
+    result.max_deviation =
+        std::max(result.max_deviation, distance_to_polyline(path, {result.end.x, result.end.y}));
   }
   result.arrived = follower.finished();
   return result;
@@ -66,7 +66,7 @@ TEST(PathFollower, ReachesEachEndWithinItsLimits) {
     EXPECT_LT(std::hypot(result.end.x - path.back().x(), result.end.y - path.back().y()), 0.05);
     EXPECT_LE(result.fastest, style.speed_m_s + 1e-12);
     EXPECT_LE(result.fastest_turn, style.max_turn_rad_s + 1e-9);
-    EXPECT_LT(result.most_deviation, 1.2 * style.look_ahead_m);
+    EXPECT_LT(result.max_deviation, 1.2 * style.look_ahead_m);
   }
 }
 

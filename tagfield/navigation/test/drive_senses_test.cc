@@ -82,7 +82,7 @@ TEST(DriveSenses, DistancesCountMapAndScan) {
   // The wall's face is somewhere within its cells.
   EXPECT_NEAR(result.surroundings(window, at_wall, Time{}).clear_now_m, 0.375, 0.026);
   EXPECT_NEAR(result.distance_to_map({1.0, 0.5}), 0.5, 0.05);
-  EXPECT_EQ(result.distance_to_map({-50.0, 0.5}), DriveSenses::kMostToMap);
+  EXPECT_EQ(result.distance_to_map({-50.0, 0.5}), DriveSenses::kMaxToMap);
 }
 
 TEST(DriveSenses, KnowsWhenItIsBlind) {

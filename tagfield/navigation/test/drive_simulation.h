@@ -102,9 +102,9 @@ struct DriveSimulation {
   PlanarPose pose;  ///< True.
   BodyVelocity velocity;
   std::int64_t step = 0;
-  double least_distance_m = std::numeric_limits<double>::infinity();  ///< To the world's edges.
-  double least_to_discs_m = std::numeric_limits<double>::infinity();
-  double least_to_boxes_m = std::numeric_limits<double>::infinity();
+  double min_distance_m = std::numeric_limits<double>::infinity();  ///< To the world's edges.
+  double min_to_discs_m = std::numeric_limits<double>::infinity();
+  double min_to_boxes_m = std::numeric_limits<double>::infinity();
   double driven_m = 0.0;
   std::vector<PlanarPose> trail;
 
@@ -135,18 +135,17 @@ struct DriveSimulation {
   }
 
   void measure() {
-    if (edges) least_distance_m = std::min(least_distance_m, edges->distance(pose));
+    if (edges) min_distance_m = std::min(min_distance_m, edges->distance(pose));
     if (step % 6 == 0) trail.push_back(pose);
     if (!obstacles_at) return;
     const Obstacles obstacles = obstacles_at(now());
     for (const Disc& disc : obstacles.discs) {
-      least_to_discs_m =
-          std::min(least_to_discs_m, outline_distance(pose, disc.centre) - disc.radius);
+      min_to_discs_m = std::min(min_to_discs_m, outline_distance(pose, disc.centre) - disc.radius);
     }
     for (const Rectangle& box : obstacles.rectangles) {
       Edges outline;
       for (int i = 0; i < 4; ++i) outline.add(corner(box, i), corner(box, i + 1));
-      least_to_boxes_m = std::min(least_to_boxes_m, outline.distance(pose));
+      min_to_boxes_m = std::min(min_to_boxes_m, outline.distance(pose));
     }
   }
 
@@ -156,9 +155,9 @@ struct DriveSimulation {
     return transformed({box.centre.x(), box.centre.y(), box.yaw}, {x, y});
   }
 
-  /// Runs until the driver is done or `most_s` seconds have passed.
-  void run(GoalDriver& driver, double most_s) {
-    const std::int64_t last = step + static_cast<std::int64_t>(most_s * kStepsPerSecond);
+  /// Runs until the driver is done or `max_s` seconds have passed.
+  void run(GoalDriver& driver, double max_s) {
+    const std::int64_t last = step + static_cast<std::int64_t>(max_s * kStepsPerSecond);
     while (driver.state() == DriveState::kDriving && step < last) advance_by(driver);
   }
 };

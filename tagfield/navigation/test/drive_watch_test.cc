@@ -34,7 +34,7 @@ TEST(DriveWatch, DetoursRenewPatienceAFewTimesOnly) {
   DriveWatch watch;
   watch.begin(10.0, at(0.0));
   double now = 0.0;
-  for (int i = 0; i < DriveWatch::kMostDetours; ++i) {
+  for (int i = 0; i < DriveWatch::kMaxDetours; ++i) {
     now += 10.0;
     watch.detour(12.0 + i, at(now));
     EXPECT_EQ(watch.waited_s(at(now)), 0.0);

@@ -49,12 +49,12 @@ struct Tour {
 };
 
 /// Moves a robot to each goal instantly.
-Tour explored(const OccupancyGrid& truth, const PlanarPose& start, int most_goals) {
+Tour explored(const OccupancyGrid& truth, const PlanarPose& start, int max_goals) {
   Tour tour{truth, {}, Explorer({}, start)};
   tour.map.cells.assign(truth.cells.size(), -1);
   PlanarPose pose = start;
   bool has_ended = false;
-  while (!tour.explorer.finished() && static_cast<int>(tour.goals.size()) < most_goals) {
+  while (!tour.explorer.finished() && static_cast<int>(tour.goals.size()) < max_goals) {
     look_around(truth, position_of(pose), tour.map);
     const OccupancyGrid map = tour.explorer.with_start(tour.map);
     const auto goal = tour.explorer.next(map, map, pose, has_ended);

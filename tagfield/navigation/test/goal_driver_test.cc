@@ -128,7 +128,7 @@ TEST(GoalDriver, ReachesGoalsAroundACornerAndOnTheSpot) {
     ASSERT_EQ(driver.state(), DriveState::kReached) << driver.reason();
     EXPECT_LT(error_of(simulation.pose, goal), 0.05);
     EXPECT_LT(std::abs(wrap_to_pi(simulation.pose.yaw - goal.yaw)), 0.05);
-    EXPECT_GT(simulation.least_distance_m, 0.1);
+    EXPECT_GT(simulation.min_distance_m, 0.1);
     pose = simulation.pose;
   }
 }
@@ -190,7 +190,7 @@ TEST(GoalDriver, LetsItselfOutFromNearAWall) {
     driver.set_goal({8.0, 1.0, 0.0}, simulation.pose, simulation.now());
     simulation.run(driver, 90.0);
     EXPECT_EQ(driver.state(), DriveState::kReached) << start.yaw << driver.reason();
-    EXPECT_GT(simulation.least_distance_m, 0.0) << start.yaw;
+    EXPECT_GT(simulation.min_distance_m, 0.0) << start.yaw;
   }
 }
 

@@ -45,15 +45,15 @@ struct Place {
       for (MovingObstacle& walker : moving) {
         walker.centre_M = walker.at(0.05);
         const double distance = (walker.centre_M - position_of(pose)).norm();
-        least_gap = std::min(least_gap, distance - walker.radius_m - settings.size.radius_m);
+        min_gap = std::min(min_gap, distance - walker.radius_m - settings.size.radius_m);
       }
       for (const Eigen::Vector2d& point : points) {
-        least_clear = std::min(least_clear, (point - position_of(pose)).norm());
+        min_clear = std::min(min_clear, (point - position_of(pose)).norm());
       }
     }
   }
-  double least_gap = 1e9;
-  double least_clear = 1e9;
+  double min_gap = 1e9;
+  double min_clear = 1e9;
 };
 
 TEST(LocalPlanner, DrivesWhatIsWantedInTheOpen) {
@@ -78,8 +78,8 @@ TEST(LocalPlanner, StopsBeforeAWall) {
   for (int i = -40; i <= 40; ++i) place.points.emplace_back(11.0, 10.0 + 0.05 * i);
   // Wants to go straight on, whatever happens.
   place.drive([](const PlanarPose& pose) { return BodyVelocity{0.3, -2.0 * pose.yaw}; }, 10.0);
-  EXPECT_GT(place.least_clear, 0.36);
-  EXPECT_LT(place.least_clear, 0.6);
+  EXPECT_GT(place.min_clear, 0.36);
+  EXPECT_LT(place.min_clear, 0.6);
   EXPECT_EQ(place.last->hindrance, Hindrance::kStanding);
 }
 
@@ -88,7 +88,7 @@ TEST(LocalPlanner, BrakesFromFullSpeed) {
   place.present = {0.8, 0.0};
   for (int i = -40; i <= 40; ++i) place.points.emplace_back(11.0, 10.0 + 0.05 * i);
   place.drive([](const PlanarPose&) { return BodyVelocity{0.8, 0.0}; }, 5.0);
-  EXPECT_GT(place.least_clear, 0.36);
+  EXPECT_GT(place.min_clear, 0.36);
 }
 
 TEST(LocalPlanner, DoesNotBackOverUnknownGround) {
@@ -103,7 +103,7 @@ TEST(LocalPlanner, LetsWhoCrossesPass) {
   Place place;
   place.moving = {{{12.0, 6.0}, {0.0, 1.0}, 0.3}};
   place.drive([](const PlanarPose& pose) { return BodyVelocity{0.3, -2.0 * pose.yaw}; }, 12.0);
-  EXPECT_GT(place.least_gap, 0.0);
+  EXPECT_GT(place.min_gap, 0.0);
   EXPECT_GT(place.pose.x, 11.0);  // It went on after that.
 }
 
@@ -113,7 +113,7 @@ TEST(LocalPlanner, GetsOutOfTheWayOfWhoComesAtIt) {
     place.pose.yaw = heading;
     place.moving = {{{14.5, 10.0}, {-1.5, 0.0}, 0.3}};
     place.drive([](const PlanarPose&) { return BodyVelocity{}; }, 8.0);
-    EXPECT_GT(place.least_gap, 0.0) << heading;
+    EXPECT_GT(place.min_gap, 0.0) << heading;
     EXPECT_EQ(place.present.forward, 0.0) << heading;
   }
 }
@@ -133,7 +133,7 @@ TEST(LocalPlanner, WhoStandsTooNearMayOnlyLeaveInWideArcs) {
   EXPECT_LT(std::abs(decision.manoeuvre.first.turn), 0.31);
   place.drive([](const PlanarPose& pose) { return BodyVelocity{0.0, 1.5 - pose.yaw}; }, 10.0);
   EXPECT_NEAR(place.pose.yaw, 1.5, 0.1);
-  EXPECT_GT(place.least_clear, 0.3);
+  EXPECT_GT(place.min_clear, 0.3);
 }
 
 RC_GTEST_PROP(LocalPlannerProperties, CommandsAreWithinTheDrivesReach, ()) {

@@ -63,8 +63,8 @@ TEST_P(Crossings, NobodyIsTouched) {
         walker({2.5, 0.0}, radians(GetParam().heading_deg), GetParam().speed, 8.7 + phase, 0.3);
     driver.set_goal({5.0, 0.0, 0.0}, simulation.pose, simulation.now());
     simulation.run(driver, 90.0);
-    EXPECT_GT(simulation.least_to_discs_m, 0.0) << phase;
-    EXPECT_GT(simulation.least_distance_m, 0.0) << phase;
+    EXPECT_GT(simulation.min_to_discs_m, 0.0) << phase;
+    EXPECT_GT(simulation.min_distance_m, 0.0) << phase;
     EXPECT_EQ(driver.state(), DriveState::kReached) << phase << ": " << driver.reason();
   }
 }
@@ -84,8 +84,8 @@ TEST(Boxes, OneInTheAisleIsDrivenAround) {
     driver.set_goal({10.5, 5.0, 0.0}, simulation.pose, simulation.now());
     simulation.run(driver, 120.0);
     EXPECT_EQ(driver.state(), DriveState::kReached) << y << ": " << driver.reason();
-    EXPECT_GT(simulation.least_to_boxes_m, 0.05) << y;
-    EXPECT_GT(simulation.least_distance_m, 0.05) << y;
+    EXPECT_GT(simulation.min_to_boxes_m, 0.05) << y;
+    EXPECT_GT(simulation.min_distance_m, 0.05) << y;
     EXPECT_LT(simulation.driven_m, 12.0) << y;
   }
 }
@@ -98,8 +98,8 @@ TEST(Boxes, ABlockedAisleIsDrivenAround) {
   driver.set_goal({10.5, 5.0, 0.0}, simulation.pose, simulation.now());
   simulation.run(driver, 240.0);
   EXPECT_EQ(driver.state(), DriveState::kReached) << driver.reason();
-  EXPECT_GT(simulation.least_to_boxes_m, 0.05);
-  EXPECT_GT(simulation.least_distance_m, 0.05);
+  EXPECT_GT(simulation.min_to_boxes_m, 0.05);
+  EXPECT_GT(simulation.min_distance_m, 0.05);
   EXPECT_GT(simulation.driven_m, 12.0);
 }
 
@@ -116,8 +116,8 @@ TEST(Boxes, WhereNoWayIsLeftItGivesUpInTime) {
   simulation.run(driver, 120.0);
   EXPECT_EQ(driver.state(), DriveState::kFailed);
   EXPECT_NE(driver.reason().find("not on the map"), std::string::npos) << driver.reason();
-  EXPECT_GT(simulation.least_to_boxes_m, 0.0);
-  EXPECT_GT(simulation.least_distance_m, 0.0);
+  EXPECT_GT(simulation.min_to_boxes_m, 0.0);
+  EXPECT_GT(simulation.min_distance_m, 0.0);
 }
 
 TEST(Boxes, WhatIsTakenAwayIsNoHindrance) {
@@ -144,7 +144,7 @@ TEST(Boxes, OneOnTheGoalIsNotPushed) {
   driver.set_goal({4.0, 0.0, 0.0}, simulation.pose, simulation.now());
   simulation.run(driver, 120.0);
   EXPECT_EQ(driver.state(), DriveState::kFailed);
-  EXPECT_GT(simulation.least_to_boxes_m, 0.0);
+  EXPECT_GT(simulation.min_to_boxes_m, 0.0);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using Points = std::vector<Eigen::Vector2d>;
 /// Drives at 20 Hz by the commands alone. The final pose, and the greatest distance from the path.
 struct Drive {
   PlanarPose end;
-  double most_off_m = 0.0;
+  double max_off_m = 0.0;
   double fastest = 0.0;
 };
 
@@ -31,7 +31,7 @@ Drive drive(const Points& points, const PlanarPose& start, const PursuitStyle& s
     velocity = limited(wanted, velocity, style.limits, 0.05);
     result.end = advance(result.end, velocity, 0.05);
     result.fastest = std::max(result.fastest, velocity.forward);
-    result.most_off_m = std::max(result.most_off_m, pursuit.distance_m());
+    result.max_off_m = std::max(result.max_off_m, pursuit.distance_m());
     if ((position_of(result.end) - points.back()).norm() < 0.02) break;
   }
   return result;
@@ -44,7 +44,7 @@ TEST(PathPursuit, ReachesTheEndAndStaysNear) {
         Points{{0.0, 0.0}, {-2.0, 0.5}}, Points{{0.0, 0.0}, {2.0, 0.0}, {0.0, 0.5}}}) {
     const Drive result = drive(points, {}, style);
     EXPECT_LT((position_of(result.end) - points.back()).norm(), 0.02);
-    EXPECT_LT(result.most_off_m, 0.25);
+    EXPECT_LT(result.max_off_m, 0.25);
     EXPECT_NEAR(result.fastest, 0.3, 0.01);
   }
 }

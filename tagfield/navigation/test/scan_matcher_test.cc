@@ -68,7 +68,7 @@ TEST(ScanMatcher, AWallNearABorderOfCellsIsWhereItsEndsAreInTheMean) {
     map.add_ends(ends);
   }
   MatchOptions limited;
-  limited.most_ends = 20.0;
+  limited.max_ends = 20.0;
   EXPECT_NEAR(match_scan(map, wall, {}, {}, kLoose, {}).pose_M.x, 0.0, 5e-4);
   EXPECT_GT(std::abs(match_scan(map, wall, {}, {}, kLoose, limited).pose_M.x), 2e-3);
 }

@@ -107,7 +107,7 @@ TEST_P(Wanders, AroundAndTouchNothing) {
     if (simulation.driven_m < 0.1) turned_before_leaving = turned;
   }
   EXPECT_GT(turned_before_leaving, radians(330.0));
-  EXPECT_GT(simulation.least_distance_m, 0.0);
+  EXPECT_GT(simulation.min_distance_m, 0.0);
   EXPECT_GT(simulation.driven_m, 5.0);
   // It gets around instead of going to and fro.
   double farthest = 0.0;
@@ -141,7 +141,7 @@ TEST(Wander, ComesOutOfACorner) {
     advance_by(wander, simulation, odometry);
   }
   EXPECT_GT(simulation.driven_m, 3.0);
-  EXPECT_GT(simulation.least_distance_m, 0.0);
+  EXPECT_GT(simulation.min_distance_m, 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Room, Wanders,
@@ -185,8 +185,8 @@ TEST(Wander, LetsSomebodyPass) {
   while (simulation.step < std::int64_t{30} * DriveSimulation::kStepsPerSecond) {
     advance_by(wander, simulation, odometry);
   }
-  EXPECT_GT(simulation.least_distance_m, 0.0);
-  EXPECT_GT(simulation.least_to_discs_m, 0.0);
+  EXPECT_GT(simulation.min_distance_m, 0.0);
+  EXPECT_GT(simulation.min_to_discs_m, 0.0);
 }
 
 TEST(Wander, StandsWithoutAScanOrAPose) {

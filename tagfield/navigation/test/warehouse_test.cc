@@ -87,7 +87,7 @@ TEST_P(Drives, ReachTheirGoalsAndTouchNothing) {
     EXPECT_EQ(driver.state(), DriveState::kReached) << driver.reason();
     EXPECT_LT(std::hypot(simulation.pose.x - goal.x, simulation.pose.y - goal.y), 0.1);
     EXPECT_LT(std::abs(wrap_to_pi(simulation.pose.yaw - goal.yaw)), 0.1);
-    EXPECT_GT(simulation.least_distance_m, 0.0);
+    EXPECT_GT(simulation.min_distance_m, 0.0);
     pose = simulation.pose;
   }
 }

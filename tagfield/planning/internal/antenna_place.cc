@@ -10,7 +10,7 @@ namespace tagfield {
 namespace {
 
 /// At shorter distances the paper's RSSI diverges [m].
-constexpr double kLeastDistance = 0.01;
+constexpr double kMinDistance = 0.01;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ AntennaAtPose::AntennaAtPose(const Scenario& scenario, const AntennaSpec& antenn
 }
 
 double AntennaAtPose::distance(const Eigen::Vector3d& p_WT) const {
-  return std::max((p_WT - p_WA_).norm(), kLeastDistance);
+  return std::max((p_WT - p_WA_).norm(), kMinDistance);
 }
 
 /// The margin is the excess of RSSI over that at the limit of the range, by eq. (5).
@@ -53,14 +53,14 @@ LinkStates AntennaAtPose::states(const TagEnd& tag, std::vector<RadioPath>& path
   return LinkStates(fading_margins_db(*view_, tag, carriers_hz_, 0, paths));
 }
 
-double AntennaAtPose::most_margin_db(const TagModel& tag, const Eigen::Vector3d& p_WT) const {
+double AntennaAtPose::max_margin_db(const TagModel& tag, const Eigen::Vector3d& p_WT) const {
   if (!view_) return 40.0 * std::log10(paper(antenna_.parameters).range_m / distance(p_WT));
-  return tagfield::most_margin_db(view_->model, tag, distance(p_WT));
+  return tagfield::max_margin_db(view_->model, tag, distance(p_WT));
 }
 
 void merge(const CoverageCell& seen, int antenna, CoverageCell& cell) {
   const double probability = std::max(cell.probability, seen.probability);
-  if (seen.margin_db >= kLeastPower_db && seen.margin_db > cell.margin_db) {
+  if (seen.margin_db >= kMinPower_db && seen.margin_db > cell.margin_db) {
     cell = seen;
     cell.antenna = antenna;
   }

@@ -28,7 +28,7 @@ class AntennaAtPose {
   /// The link's fading states; none for an antenna of the paper's model.
   [[nodiscard]] LinkStates states(const TagEnd& tag, std::vector<RadioPath>& paths) const;
   /// Upper bound on the margin of any tag at `p_WT` [dB].
-  [[nodiscard]] double most_margin_db(const TagModel& tag, const Eigen::Vector3d& p_WT) const;
+  [[nodiscard]] double max_margin_db(const TagModel& tag, const Eigen::Vector3d& p_WT) const;
 
  private:
   [[nodiscard]] double distance(const Eigen::Vector3d& p_WT) const;

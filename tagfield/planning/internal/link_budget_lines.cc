@@ -90,7 +90,7 @@ std::vector<MaterialOnLink> materials_on(const std::vector<PathExplanation>& pat
   for (const std::string& name : met) {
     const Material& material = find_material(world.materials, name);
     all.push_back({name, permittivity(material, frequency_hz).real(),
-                   conductivity(material, frequency_hz), material.least_ghz, material.most_ghz,
+                   conductivity(material, frequency_hz), material.min_ghz, material.max_ghz,
                    is_measured_at(material, frequency_hz)});
   }
   return all;

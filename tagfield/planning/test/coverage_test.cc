@@ -63,7 +63,7 @@ TEST(Coverage, HasAShadowBehindMetal) {
   Scenario scenario = one_gate();
   add_box(scenario, "metal", {2.0, 0.0, 1.0}, {0.2, 1.0, 2.0});
   const Coverage coverage = covered(scenario, kAround, 0.2);
-  EXPECT_LT(cell_at(coverage, 4.0, 0.0).power_dbm, kLeastPower_db);
+  EXPECT_LT(cell_at(coverage, 4.0, 0.0).power_dbm, kMinPower_db);
   EXPECT_EQ(cell_at(coverage, 4.0, 0.0).antenna, -1);
   EXPECT_EQ(cell_at(coverage, -4.0, 0.0).probability, 1.0);
   // At x = 4.1 the edge of the shadow is at y = 0.5·4.1/1.9 = 1.08 to 1.14, by the front or the

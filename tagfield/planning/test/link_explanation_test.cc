@@ -179,17 +179,17 @@ TEST(LinkExplanation, PapersProbabilityCountsWhatReachesTheSensitivity) {
   model.model.rssi_noise = 0.008;
   LinkGeometry link;
   link.distance_m = 3.0;
-  for (const double least_dbm : {-120.0, -90.5, -85.0, -80.0, -75.0, -70.0}) {
-    model.sensitivity_dbm = least_dbm;
+  for (const double min_dbm : {-120.0, -90.5, -85.0, -80.0, -75.0, -70.0}) {
+    model.sensitivity_dbm = min_dbm;
     constexpr int kReads = 20'000;
     int heard = 0;
     for (int i = 0; i < kReads; ++i) {
       const Signal signal = read_signal(antenna, 1, 2, link, Time(Duration(i)), 3);
-      if (signal.rssi_dbm >= least_dbm) ++heard;
+      if (signal.rssi_dbm >= min_dbm) ++heard;
     }
     const double expected = read_probability(antenna, link.distance_m);
     const double sigma = std::sqrt(expected * (1.0 - expected) / kReads);
-    EXPECT_NEAR(static_cast<double>(heard) / kReads, expected, 4.0 * sigma + 1e-9) << least_dbm;
+    EXPECT_NEAR(static_cast<double>(heard) / kReads, expected, 4.0 * sigma + 1e-9) << min_dbm;
   }
   model.model.rssi_noise = 0.0;
   EXPECT_EQ(read_probability(antenna, 3.0), 0.0);

@@ -7,7 +7,7 @@
 
 namespace tagfield {
 
-/// Throws Error, naming the option, unless 0 ≤ order ≤ kMostBounces, most_length_m ≥ 0 and
+/// Throws Error, naming the option, unless 0 ≤ order ≤ kMaxBounces, max_length_m ≥ 0 and
 /// 0 ≤ mount_depth_m ≤ 1.
 void check(const TraceOptions& options);
 

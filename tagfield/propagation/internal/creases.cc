@@ -14,7 +14,7 @@ namespace tagfield {
 namespace {
 
 /// Surfaces that are bent by less count as round [rad].
-constexpr double kLeastBend = radians(40.0);
+constexpr double kMinBend = radians(40.0);
 /// A vertex this close to a side lies on it [m].
 constexpr double kOnSide = 2e-5;
 constexpr double kSamePath = 1.0 - 1e-6;  ///< Minimum cosine between segments of one line.
@@ -114,7 +114,7 @@ std::optional<DiffractingEdge> bend(WedgeFace one, WedgeFace other, bool closed)
   if (!closed && other.normal_W.dot(one.into_W) > 0.0) other.normal_W = -other.normal_W;
   if (one.normal_W.dot(other.into_W) >= 0.0) return std::nullopt;  // Concave.
   const double by = std::acos(std::clamp(one.normal_W.dot(other.normal_W), -1.0, 1.0));
-  if (by < kLeastBend) return std::nullopt;
+  if (by < kMinBend) return std::nullopt;
   edge.faces = {one, other};
   edge.exterior_rad = kPi + by;
   return edge;

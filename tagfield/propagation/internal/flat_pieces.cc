@@ -14,7 +14,7 @@ constexpr double kFlatPiece = 1e-4;   // [m]
 constexpr double kSameNormal = 0.99;  // Cosine between normals; those of small triangles are noisy.
 constexpr double kRectangle = 1e-9;   // Relative to the area.
 /// The edges of at most this many triangles are tried as directions of the bounding rectangle.
-constexpr std::size_t kMostDirections = 64;
+constexpr std::size_t kMaxDirections = 64;
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
@@ -145,7 +145,7 @@ Rectangle rectangle_along(const std::vector<Corners>& triangles, const Facet& pl
 /// The smallest bounding rectangle along one of the triangles' edges.
 void set_rectangle(const std::vector<Corners>& triangles, Facet& facet) {
   Rectangle least;
-  for (std::size_t i = 0; i < std::min(triangles.size(), kMostDirections); ++i) {
+  for (std::size_t i = 0; i < std::min(triangles.size(), kMaxDirections); ++i) {
     const Corners& abc = triangles[i];
     for (std::size_t k = 0; k < 3; ++k) {
       const Rectangle found = rectangle_along(triangles, facet, abc[(k + 1) % 3] - abc[k]);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kCell = 1e-5;  // [m]
 /// Closed surfaces are thicker than this on average; thinner ones are sheets with two faces [m].
-constexpr double kLeastThickness = 1e-5;
+constexpr double kMinThickness = 1e-5;
 
 using Cell = std::array<std::int64_t, 3>;
 
@@ -128,7 +128,7 @@ Pieces find_pieces(const WeldedMesh& mesh, const std::vector<Edge>& edges) {
   }
   for (std::size_t i = 0; i < count; ++i) {
     // Volume / (half the area) is a slab's thickness.
-    if (!(std::abs(bulks[i].volume) / 6.0 > kLeastThickness * bulks[i].area / 4.0)) {
+    if (!(std::abs(bulks[i].volume) / 6.0 > kMinThickness * bulks[i].area / 4.0)) {
       pieces.pieces[i].closed = false;
     }
     pieces.pieces[i].inverted = pieces.pieces[i].closed && bulks[i].volume < 0.0;

@@ -39,7 +39,7 @@ Beams random_beams(std::size_t count, std::mt19937& random) {
 }
 
 /// The height of `p_W` above the lowest of an image's planes [m].
-double least_height(const Beams& beams, std::size_t i, const Eigen::Vector3d& p_W) {
+double min_height(const Beams& beams, std::size_t i, const Eigen::Vector3d& p_W) {
   const Eigen::Vector4d heights =
       beams.sides[i].leftCols<3>() * p_W + Eigen::Vector4d(beams.sides[i].col(3));
   return std::min(heights.minCoeff(), beams.images[i].normal_W.dot(p_W) - beams.images[i].offset_m);
@@ -64,7 +64,7 @@ TEST(Beams, ThoseThatReachAPointAreFoundByEachInstructionSet) {
         EXPECT_EQ(seen, first);
       }
       for (std::uint32_t i = 0; i < count; ++i) {
-        const double height = least_height(beams, i, beams.p_WA + from_antenna);
+        const double height = min_height(beams, i, beams.p_WA + from_antenna);
         const bool is_seen = std::binary_search(first.begin(), first.end(), i);
         EXPECT_TRUE(is_seen || height < 0.0) << height;
         EXPECT_FALSE(is_seen && height < -1e-4) << height;

@@ -50,7 +50,7 @@ void expect_same(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eig
                          [](const auto& a, const auto& b) { return is_equal(a, b); }));
   counts.paths += plain.size();
   counts.stops += last.stops.size();
-  EXPECT_LE(last.stops.size(), kMostStops);
+  EXPECT_LE(last.stops.size(), kMaxStops);
 }
 
 Eigen::Vector3d point_in(std::mt19937_64& random, double size) {
@@ -80,7 +80,7 @@ RC_GTEST_PROP(LastStops, ChangeNoPathAlongAnyWalk, ()) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
   const RadioScene scene = random_scene(random);
   TraceOptions options;
-  options.order = *rc::gen::inRange(0, kMostBounces + 1);
+  options.order = *rc::gen::inRange(0, kMaxBounces + 1);
   options.keep_blocked = *rc::gen::inRange(0, 4) == 0;
   const double pace = *rc::gen::element(0.0, 0.02, 0.5);
   Eigen::Vector3d p_WA = point_in(random, 4.0);

@@ -133,8 +133,8 @@ TEST(TracePaths, OptionsOutOfRangeAreErrors) {
   EXPECT_TRUE(contains(message(of_order(-1)), "order must be 0 to 3, is -1"));
   EXPECT_TRUE(contains(message(of_order(4)), "order must be 0 to 3, is 4"));
   TraceOptions options;
-  options.most_length_m = kNan;
-  EXPECT_TRUE(contains(message(options), "most_length_m"));
+  options.max_length_m = kNan;
+  EXPECT_TRUE(contains(message(options), "max_length_m"));
   options = {};
   options.mount_depth_m = -0.1;
   EXPECT_TRUE(contains(message(options), "mount_depth_m"));
@@ -147,11 +147,11 @@ TEST(TracePaths, OptionsOutOfRangeAreErrors) {
 TEST(TracePaths, LongerPathsThanAskedAreLeftOut) {
   const RadioScene scene(floor_scene());
   TraceOptions options = of_order(1);
-  options.most_length_m = 4.5;
+  options.max_length_m = 4.5;
   EXPECT_EQ(paths_between(scene, {0.0, 0.0, 1.0}, {4.0, 0.0, 2.0}, options).size(), 1U);
-  options.most_length_m = 4.0;
+  options.max_length_m = 4.0;
   EXPECT_TRUE(paths_between(scene, {0.0, 0.0, 1.0}, {4.0, 0.0, 2.0}, options).empty());
-  options.most_length_m = 5.1;
+  options.max_length_m = 5.1;
   EXPECT_EQ(paths_between(scene, {0.0, 0.0, 1.0}, {4.0, 0.0, 2.0}, options).size(), 2U);
 }
 

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostBands = 12;
+constexpr std::size_t kMaxBands = 12;
 
 std::string label_of(double value) {
   return value < 0.0 ? fmt::format("−{:g}", -value) : fmt::format("{:g}", value);
@@ -51,7 +51,7 @@ ColorBands power_bands(const std::string& title, std::vector<double> values) {
   if (values.empty()) values = {0.0};
   const auto [low, high] = color_range(values);
   double step = 5.0;
-  while ((high - low) / step > static_cast<double>(kMostBands - 2)) step *= 2.0;
+  while ((high - low) / step > static_cast<double>(kMaxBands - 2)) step *= 2.0;
   const double first = std::floor(low / step) * step;
   const double last = std::max(std::ceil(high / step) * step, first + step);
   for (double edge = first; edge < last + 0.5 * step; edge += step) bands.edges.push_back(edge);

@@ -17,7 +17,7 @@ constexpr std::array<Rgb, 9> kStops = {
     Rgb{0.255, 0.267, 0.529}, Rgb{0.208, 0.373, 0.553}, Rgb{0.165, 0.471, 0.557},
     Rgb{0.129, 0.569, 0.549}, Rgb{0.133, 0.659, 0.518}, Rgb{0.267, 0.749, 0.439},
     Rgb{0.478, 0.820, 0.318}, Rgb{0.741, 0.875, 0.149}, Rgb{0.992, 0.906, 0.145}};
-constexpr double kLeastOpacity = 0.7;
+constexpr double kMinOpacity = 0.7;
 
 double clamped(double strength) { return std::clamp(strength, 0.0, 1.0); }
 
@@ -37,7 +37,7 @@ Rgb strength_color(double strength) {
 }
 
 double strength_opacity(double strength) {
-  return kLeastOpacity + (1.0 - kLeastOpacity) * clamped(strength);
+  return kMinOpacity + (1.0 - kMinOpacity) * clamped(strength);
 }
 
 std::string hex_color(const Rgb& color) {

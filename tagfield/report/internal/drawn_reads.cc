@@ -14,7 +14,7 @@ namespace tagfield {
 namespace {
 
 /// Minimum length of a read's row [bytes].
-constexpr std::size_t kLeastRow = 12;
+constexpr std::size_t kMinRow = 12;
 
 /// A read's row in the table, and its stamp.
 struct StampedRow {
@@ -93,7 +93,7 @@ class Choice {
 DrawnReads read_drawn(const std::string& path, std::size_t most) {
   DrawnReads drawn;
   std::error_code unknown;  // If it is not a regular file, rows are counted.
-  if (std::filesystem::file_size(path, unknown) <= most * kLeastRow && !unknown) {
+  if (std::filesystem::file_size(path, unknown) <= most * kMinRow && !unknown) {
     drawn.reads = read_reads_csv(path);
     drawn.of = drawn.reads.size();
     return drawn;

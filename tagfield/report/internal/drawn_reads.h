@@ -12,7 +12,7 @@
 namespace tagfield {
 
 /// Maximum number of reads kept for a page: 90 MB.
-inline constexpr std::size_t kMostDrawn = 500'000;
+inline constexpr std::size_t kMaxDrawn = 500'000;
 
 struct DrawnReads {
   std::vector<TagRead> reads;  ///< In the table's order.
@@ -23,6 +23,6 @@ struct DrawnReads {
 /// antenna all reads of the tag that it reads most often, whose phases are unwrapped (in total at
 /// most half of `most`, the earliest rows); each tag's first and last read, unless there are too
 /// many tags; and every n-th of the others. Throws Error as read_reads_csv() does.
-DrawnReads read_drawn(const std::string& path, std::size_t most = kMostDrawn);
+DrawnReads read_drawn(const std::string& path, std::size_t most = kMaxDrawn);
 
 }  // namespace tagfield

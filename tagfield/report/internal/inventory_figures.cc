@@ -83,7 +83,7 @@ Figure inventory_antennas_figure(const RunFiles& run) {
   const std::vector<const InventoryShare*> rows = by_reader(inventory);
   double most = 1.0;
   for (const InventoryShare* const antenna : rows) most = std::max(most, antenna->tags);
-  const std::size_t shown = std::min(rows.size(), kMostRows);
+  const std::size_t shown = std::min(rows.size(), kMaxRows);
   const double height = row_height(shown);
   Axes axes{round_scale(0.0, most, 5), {}};
   axes.x.from = kNamesWidth;

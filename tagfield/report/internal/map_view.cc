@@ -14,8 +14,8 @@ namespace {
 constexpr double kLeft = 48.0;
 constexpr double kRight = 14.0;
 constexpr double kTitleRoom = 30.0;
-constexpr double kGreatestHeight = 600.0;
-constexpr double kLeastAspect = 0.4;
+constexpr double kMaxHeight = 600.0;
+constexpr double kMinAspect = 0.4;
 constexpr double kSeen = 0.7;  ///< Shorter steps of an outline or a path are not visible.
 constexpr double kArrowDistance = 120.0;
 
@@ -47,7 +47,7 @@ Extent shown_extent(const Extent& content, const std::vector<Silhouette>& geomet
 /// `box`, extended to a minimum aspect ratio.
 Extent shaped(Extent box) {
   const Eigen::Vector2d size = box.sizes();
-  const Eigen::Vector2d least(kLeastAspect * size.y(), kLeastAspect * size.x());
+  const Eigen::Vector2d least(kMinAspect * size.y(), kMinAspect * size.x());
   const Eigen::Vector2d more = (0.5 * (least - size)).cwiseMax(0.0);
   return {box.min() - more, box.max() + more};
 }
@@ -137,7 +137,7 @@ MapView make_map(const std::string& id, const Extent& content,
   const double room = kDrawingWidth - kLeft - kRight;
   MapView map;
   map.id = id;
-  map.scale = std::min(room / size.x(), kGreatestHeight / size.y());
+  map.scale = std::min(room / size.x(), kMaxHeight / size.y());
   const double left = kLeft + (room - map.scale * size.x()) / 2.0;
   const double ceiling = top + kTitleRoom;
   map.axes.x =

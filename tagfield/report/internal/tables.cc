@@ -156,7 +156,7 @@ std::string several_table(const std::vector<TagRow>& rows, std::size_t shown) {
 std::string tag_table(const Summary& summary) {
   const std::vector<TagRow> rows = rows_by_tag(summary);
   if (rows.empty()) return "<p>No tag was read.</p>\n";
-  const std::size_t shown = std::min(rows.size(), kMostTableRows);
+  const std::size_t shown = std::min(rows.size(), kMaxTableRows);
   const bool several = summary.seeds.size() > 1;
   std::string html = "<div class=\"table\" role=\"region\" aria-label=\"Tags\" tabindex=\"0\">";
   html += "<table>\n" + (several ? several_table(rows, shown) : single_table(rows, shown)) +

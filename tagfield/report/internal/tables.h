@@ -9,10 +9,10 @@
 
 namespace tagfield {
 
-inline constexpr std::size_t kMostTableRows = 500;
+inline constexpr std::size_t kMaxTableRows = 500;
 
 /// One row per tag: for one seed with its estimate, for several with the statistics of their
-/// errors. Only the first `kMostTableRows` tags, with a note on the others.
+/// errors. Only the first `kMaxTableRows` tags, with a note on the others.
 std::string tag_table(const Summary& summary);
 
 /// Results of robot navigation, with a heading; "" if there was none.

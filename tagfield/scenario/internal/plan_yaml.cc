@@ -17,8 +17,8 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostPlaces = 200'000;
-constexpr std::size_t kMostMounts = 20'000;
+constexpr std::size_t kMaxPlaces = 200'000;
+constexpr std::size_t kMaxMounts = 20'000;
 
 /// One number for all axes, or one per axis.
 Eigen::Vector3d spacing_of(YamlMap& map, double otherwise_m) {
@@ -33,7 +33,7 @@ Eigen::Vector3d spacing_of(YamlMap& map, double otherwise_m) {
 /// Evenly spaced positions from `low` to `high` inclusive, at most `spacing` apart.
 std::vector<double> spread(double low, double high, double spacing) {
   const double gaps = std::ceil((high - low) / spacing - 1e-9);
-  if (!(gaps < static_cast<double>(kMostPlaces)))
+  if (!(gaps < static_cast<double>(kMaxPlaces)))
     throw Error("has too many positions: expected a greater spacing_m");
   const auto count = static_cast<std::size_t>(std::max(gaps, 0.0)) + 1;
   std::vector<double> places;
@@ -51,9 +51,9 @@ std::vector<Eigen::Vector3d> places_in(const Eigen::AlignedBox3d& box,
   const std::vector<double> z = spread(box.min().z(), box.max().z(), spacing_m.z());
   if (static_cast<double>(x.size()) * static_cast<double>(y.size()) *
           static_cast<double>(z.size()) >
-      static_cast<double>(kMostPlaces)) {
+      static_cast<double>(kMaxPlaces)) {
     throw Error(
-        fmt::format("has more than {} positions: expected a greater spacing_m", kMostPlaces));
+        fmt::format("has more than {} positions: expected a greater spacing_m", kMaxPlaces));
   }
   std::vector<Eigen::Vector3d> places;
   for (const double h : z) {
@@ -127,8 +127,8 @@ PlanTags tags_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnosti
   if (map.has("count")) {
     const YamlValue count = map.at("count");
     tags.count = count.whole_number();
-    if (tags.count == 0 || tags.count > kMostPlaces) {
-      count.fail(fmt::format("must be from 1 to {}, is {}", kMostPlaces, tags.count));
+    if (tags.count == 0 || tags.count > kMaxPlaces) {
+      count.fail(fmt::format("must be from 1 to {}, is {}", kMaxPlaces, tags.count));
     }
   }
   map.finish();
@@ -159,9 +159,8 @@ std::vector<Eigen::Vector3d> mount_points(YamlMap& map) {
   try {
     const std::vector<double> steps = spread(0.0, along.norm(), spacing_m);
     const std::vector<double> rows = spread(0.0, across.norm(), spacing_m);
-    if (steps.size() * rows.size() > kMostMounts) {
-      throw Error(
-          fmt::format("has more than {} mounts: expected a greater spacing_m", kMostMounts));
+    if (steps.size() * rows.size() > kMaxMounts) {
+      throw Error(fmt::format("has more than {} mounts: expected a greater spacing_m", kMaxMounts));
     }
     for (const double row : rows) {
       for (const double step : steps) {
@@ -198,15 +197,15 @@ std::vector<double> powers_of(YamlMap& map, const RadioModel& model) {
 }
 
 /// The maximum power at the reader's port that the regulation allows with this antenna [dBm].
-double most_power_dbm(const RadioModel& model) {
+double max_power_dbm(const RadioModel& model) {
   constexpr double kDipole_dbi = 2.15;
-  return model.plan.most_erp_dbm + kDipole_dbi - to_db(peak_gain(model.antenna)) +
+  return model.plan.max_erp_dbm + kDipole_dbi - to_db(peak_gain(model.antenna)) +
          model.cable_loss_db;
 }
 
 void require_legal(const YamlValue& where, const PlanMount& mount, const RadioModel& model) {
-  if (model.plan.most_erp_dbm == 0.0) return;
-  const double most = most_power_dbm(model);
+  if (model.plan.max_erp_dbm == 0.0) return;
+  const double most = max_power_dbm(model);
   for (const double power : mount.power_dbm) {
     if (power <= most + 0.05) continue;
     where.fail(

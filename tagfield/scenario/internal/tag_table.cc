@@ -19,7 +19,7 @@ namespace {
 using Kind = std::shared_ptr<const TagModel>;
 
 constexpr const char* kAngles[] = {"roll_rad", "pitch_rad", "yaw_rad"};
-constexpr double kMostAngle_rad = 1e5;
+constexpr double kMaxAngle_rad = 1e5;
 
 /// Indices of the three columns; none if none of them exists.
 std::optional<std::array<std::size_t, 3>> angle_columns(const CsvTable& table) {
@@ -35,7 +35,7 @@ Eigen::Quaterniond rotation_of(const CsvTable& table, const CsvRow& row,
   Eigen::Vector3d rpy;
   for (std::size_t i = 0; i < 3; ++i) {
     rpy[static_cast<Eigen::Index>(i)] = table.number(row, columns[i]);
-    if (std::abs(rpy[static_cast<Eigen::Index>(i)]) > kMostAngle_rad) {
+    if (std::abs(rpy[static_cast<Eigen::Index>(i)]) > kMaxAngle_rad) {
       fail({table.file, row.line}, fmt::format("{} is not an angle [rad]", kAngles[i]));
     }
   }

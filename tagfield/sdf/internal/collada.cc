@@ -18,7 +18,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr std::size_t kMostBytes = 1'000'000'000;
+constexpr std::size_t kMaxBytes = 1'000'000'000;
 
 /// Elements that never contain geometry, wherever they appear.
 constexpr std::array<std::string_view, 12> kOthers = {"extra",
@@ -81,7 +81,7 @@ bool is_collada(const std::string& path) {
 }
 
 std::string collada_geometry(const std::string& path) {
-  const std::string text = read_text_file(path, kMostBytes);
+  const std::string text = read_text_file(path, kMaxBytes);
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     fail({path, document.ErrorLineNum()},

@@ -11,7 +11,7 @@ namespace {
 /// If finding a pose takes more steps, the frames are assumed to form a cycle. Each step may be a
 /// level on the stack; and where names lead into nested models the search branches, so the steps of
 /// all branches are counted.
-constexpr int kMostSteps = 2'000;
+constexpr int kMaxSteps = 2'000;
 
 bool is_own(const std::string& name) {
   return name.empty() || name == kModelFrame || name == "world";
@@ -65,7 +65,7 @@ Frame frame_of(Context& context, const tinyxml2::XMLElement& element,
 
 std::optional<RigidTransform> pose_in(const Scope& scope, const std::string& name) {
   if (is_own(name)) return RigidTransform{};
-  int steps_left = kMostSteps;
+  int steps_left = kMaxSteps;
   return walk(scope, name, steps_left);
 }
 

@@ -13,8 +13,8 @@
 namespace tagfield::sdf_internal {
 namespace {
 
-constexpr std::size_t kMostBytes = 100'000'000;
-constexpr png_uint_32 kMostPixels = 16'385;  ///< In a row or column.
+constexpr std::size_t kMaxBytes = 100'000'000;
+constexpr png_uint_32 kMaxPixels = 16'385;  ///< In a row or column.
 
 struct RedChannel {
   int width = 0;
@@ -29,16 +29,16 @@ struct RedChannel {
 
 /// libpng's simplified interface, which frees its memory on success and on failure.
 RedChannel read_png(const std::string& path) {
-  const std::string bytes = read_text_file(path, kMostBytes);
+  const std::string bytes = read_text_file(path, kMaxBytes);
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
     fail({path, 0}, fmt::format("not a PNG image that a heightmap can be read from ({})",
                                 static_cast<const char*>(image.message)));
   }
-  if (image.width > kMostPixels || image.height > kMostPixels) {
+  if (image.width > kMaxPixels || image.height > kMaxPixels) {
     png_image_free(&image);
-    fail({path, 0}, fmt::format("a heightmap may have {0} x {0} pixels at most", kMostPixels));
+    fail({path, 0}, fmt::format("a heightmap may have {0} x {0} pixels at most", kMaxPixels));
   }
   image.format = PNG_FORMAT_RGB;
   std::vector<std::uint8_t> rgb(PNG_IMAGE_SIZE(image));
@@ -53,7 +53,7 @@ RedChannel read_png(const std::string& path) {
 
 /// Indices of the pixels that are used in a row or column of `count`.
 std::vector<int> used_pixels(int count) {
-  const int step = (count - 2) / (kMostHeights - 1) + 1;
+  const int step = (count - 2) / (kMaxHeights - 1) + 1;
   std::vector<int> used;
   for (int i = 0; i < count - 1; i += step) used.push_back(i);
   used.push_back(count - 1);
@@ -81,7 +81,7 @@ TriangleMesh heightmap_mesh(const Heightmap& map, const std::string& path, const
   if (image.width < 2 || image.height < 2) fail({path, 0}, "a heightmap needs 2 x 2 pixels");
   const std::vector<int> rows = used_pixels(image.height);
   const std::vector<int> columns = used_pixels(image.width);
-  if (std::max(image.width, image.height) > kMostHeights) {
+  if (std::max(image.width, image.height) > kMaxHeights) {
     context.diagnostics.warn(location,
                              fmt::format("of the heightmap's {} x {} pixels {} x {} are "
                                          "used",

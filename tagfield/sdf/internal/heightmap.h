@@ -19,7 +19,7 @@ struct Heightmap {
 };
 
 /// Images with more pixels in a row or column are subsampled, with a warning.
-inline constexpr int kMostHeights = 1025;
+inline constexpr int kMaxHeights = 1025;
 
 /// The surface of the PNG image at `path`, seen from above: its first row has the greatest y, and
 /// its brightest pixels have the height size.z (Gazebo 11's rule, which uses the red channel of a

@@ -63,8 +63,8 @@ class ModelReader {
   /// `include` is the element that includes the model, which may override some of its properties,
   /// or null.
   std::unique_ptr<Model> model(const XMLElement& element, const XMLElement* include) {
-    if (++models_ > kMostModels) {
-      fail(location_of(element), fmt::format("over {} models", kMostModels));
+    if (++models_ > kMaxModels) {
+      fail(location_of(element), fmt::format("over {} models", kMaxModels));
     }
     auto model = std::make_unique<Model>();
     model->element = &element;

@@ -41,10 +41,10 @@ struct World {
 };
 
 /// More models would take more memory than such a file justifies (about 2 KB each).
-inline constexpr std::size_t kMostModels = 100'000;
+inline constexpr std::size_t kMaxModels = 100'000;
 
 /// The world in `element`, a <world>. Missing includes are added to the context's `missing`. Throws
-/// Error for elements without names, files that include themselves, and more than kMostModels
+/// Error for elements without names, files that include themselves, and more than kMaxModels
 /// models.
 World read_world(Context& context, const tinyxml2::XMLElement& element);
 

@@ -53,7 +53,7 @@ std::array<NameOf, 3> scopes(SensorKind kind) {
 NamedPlacement read_sensor(const XMLElement& sensor, const RigidTransform& X_WS,
                            const std::string& model, const std::string& link) {
   const std::string name = name_of(sensor);
-  if (X_WS.translation.cwiseAbs().maxCoeff() > kMostLength_m) {
+  if (X_WS.translation.cwiseAbs().maxCoeff() > kMaxLength_m) {
     fail(location_of(sensor), "sensor '" + name + "' stands over 100 km from the origin");
   }
   return {{name, X_WS, parameters_of(sensor), location_of(sensor)}, model, link};

@@ -17,7 +17,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr std::size_t kMostBytes = 200'000'000;
+constexpr std::size_t kMaxBytes = 200'000'000;
 
 /// Blanks out all declarations, <?xml …?>, which are otherwise accepted only at the start; line
 /// numbers don't change.
@@ -108,7 +108,7 @@ RigidTransform pose_with_quaternion(const XMLElement& pose, const std::vector<do
 void parse_xml(XmlFile& file) {
   std::string text;
   try {
-    text = read_text_file(file.path, kMostBytes);
+    text = read_text_file(file.path, kMaxBytes);
   } catch (const Error& error) {
     // The path as the caller wrote it, not as resolved.
     std::string message = error.what();

@@ -42,8 +42,8 @@ struct Ride {
     nearest_m = std::min(nearest_m, world().clearance.distance(truth, {}));
     ++count;
   }
-  void run(double most_s) {
-    while (!driver.finished() && count * kDriveStep < most_s) step();
+  void run(double max_s) {
+    while (!driver.finished() && count * kDriveStep < max_s) step();
   }
   [[nodiscard]] double error_m() const {
     return (position_of(driver.believed(kDriveStep).pose_M) - position_of(truth)).norm();
@@ -130,7 +130,7 @@ TEST(SelfDriver, GivesUpSearchingInTheEnd) {
   NavigationSpec navigation = spec();
   navigation.laser.rate_hz = 2.0;
   navigation.localizer.first_particles = 300;
-  navigation.localizer.least_searching = 200;
+  navigation.localizer.min_searching = 200;
   navigation.localizer.update_turn_rad = 3.0;
   navigation.localizer.update_distance_m = 3.0;
   SelfDriver driver(navigation, 0.4, world(), elsewhere, nullptr, std::nullopt,

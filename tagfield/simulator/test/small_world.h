@@ -41,7 +41,7 @@ inline Scenario small_drive() {
   // Few particles and updates suffice in a room this small.
   LocalizerSettings& localizer = navigation.localizer;
   localizer.first_particles = 3000;
-  localizer.least_searching = 1000;
+  localizer.min_searching = 1000;
   localizer.update_turn_rad = 0.5;
   localizer.update_distance_m = 0.15;
   localizer.point_spacing_m = 0.15;

@@ -11,8 +11,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kNearest = 1e-3;     ///< Smaller distances are clamped to this [m].
-constexpr double kLeastNoise = 0.02;  ///< [rad]
+constexpr double kNearest = 1e-3;   ///< Smaller distances are clamped to this [m].
+constexpr double kMinNoise = 0.02;  ///< [rad]
 /// Weak prior on any motion, so that normal matrices are invertible [m, m/s].
 constexpr double kAnywhere = 100.0;
 
@@ -96,8 +96,7 @@ LineFit fit_line(const Pass& pass, const std::vector<SubAperture>& apertures,
                  const MotionPrior& prior, double noise_rad, bool fix_known,
                  const StraightMotion& start) {
   const FitInput input{pass, apertures, prior, 1.0 / (noise_rad * noise_rad), fix_known};
-  constexpr LevenbergMarquardt kHow{
-      .most_steps = 30, .most_damping = 1e6, .least_relative_gain = 1e-6};
+  constexpr LevenbergMarquardt kHow{.max_steps = 30, .max_damping = 1e6, .min_relative_gain = 1e-6};
   const CircularFit<6> best = fit_angles<6>(
       as_vector(start), kHow,
       [&](const Vector6d& theta) { return normal_at(input, as_motion(theta)); },
@@ -111,7 +110,7 @@ LineFit fit_line(const Pass& pass, const std::vector<SubAperture>& apertures,
       normal.residuals.data(), static_cast<Eigen::Index>(normal.residuals.size()));
   fit.coherence = errors.cos().sum() / count;
   const double freedom = std::max(count - free, 1.0);
-  fit.noise_rad = std::max(std::sqrt(errors.square().sum() / freedom), kLeastNoise);
+  fit.noise_rad = std::max(std::sqrt(errors.square().sum() / freedom), kMinNoise);
   fit.prior_cost = 0.5 * (prior.values - prior.rows * as_vector(fit.motion)).squaredNorm();
   fit.covariance = invert_symmetric(normal.matrix);
   return fit;

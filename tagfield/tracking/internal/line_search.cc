@@ -11,8 +11,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kShortest = 0.3;         ///< First sub-apertures [s].
-constexpr std::size_t kMostLookups = 40;  ///< Maximum number of sub-apertures for scoring the grid.
+constexpr double kShortest = 0.3;        ///< First sub-apertures [s].
+constexpr std::size_t kMaxLookups = 40;  ///< Maximum number of sub-apertures for scoring the grid.
 constexpr std::size_t kFewestInAperture = 3;
 constexpr std::size_t kCoarseHypotheses = 40;
 constexpr double kSpeedStep = 0.15;  ///< [m/s]
@@ -28,7 +28,7 @@ struct RateTable {
   double t_s = 0.0;
   Eigen::Vector3d p_WA;
   Eigen::Vector3d v_WA;
-  double least_rate = 0.0;
+  double min_rate = 0.0;
   double step = 1.0;
   std::vector<float> power;
 };
@@ -53,10 +53,10 @@ RateTable table_of(const Pass& pass, const SubAperture& aperture, double max_rat
   table.v_WA = middle.v_WA;
   // An eighth of the lobe's width, so that interpolation between two rows loses little.
   table.step = kTwoPi / (middle.k * kShortest) / 8.0;
-  table.least_rate = -max_rate;
+  table.min_rate = -max_rate;
   const auto rows = static_cast<std::size_t>(2.0 * max_rate / table.step) + 2;
   for (std::size_t row = 0; row < rows; ++row) {
-    const double rate = table.least_rate + static_cast<double>(row) * table.step;
+    const double rate = table.min_rate + static_cast<double>(row) * table.step;
     std::complex<double> sum;
     for (const std::size_t i : aperture) {
       const PassRead& read = pass.reads[i];
@@ -68,7 +68,7 @@ RateTable table_of(const Pass& pass, const SubAperture& aperture, double max_rat
 }
 
 double look_up(const RateTable& table, double rate) {
-  const double place = (rate - table.least_rate) / table.step;
+  const double place = (rate - table.min_rate) / table.step;
   if (!(place >= 0.0)) return 0.0;
   const auto row = static_cast<std::size_t>(place);
   if (row + 1 >= table.power.size()) return 0.0;
@@ -89,7 +89,7 @@ std::vector<RateTable> rate_tables(const Pass& pass, const TrackingOptions& opti
     fastest_antenna = std::max(fastest_antenna, read.v_WA.norm());
   }
   const double max_rate = 1.1 * (options.max_speed_m_s + fastest_antenna);
-  const std::size_t count = std::min(apertures.size(), kMostLookups);
+  const std::size_t count = std::min(apertures.size(), kMaxLookups);
   std::vector<RateTable> tables;
   for (std::size_t i = 0; i < count; ++i) {
     tables.push_back(table_of(pass, apertures[i * apertures.size() / count], max_rate));

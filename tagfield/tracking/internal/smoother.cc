@@ -17,18 +17,18 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostOffsets = 12;    ///< With more, channels of an antenna share a slot.
-constexpr double kAnyOffset = 100.0;        ///< Variance of an unknown offset.
-constexpr double kKnownOffset = 1e-6;       ///< Variance of a known offset.
-constexpr int kPasses = 4;                  ///< Iterations after the last jump was found.
-constexpr int kPassesBefore = 3;            ///< Iterations to settle before jumps are searched.
-constexpr int kMostJumps = 4;               ///< Maximum number of searches that find jumps.
-constexpr double kNearestApproach = 1e-3;   ///< [m]
-constexpr double kLeastMotionNoise = 0.02;  ///< [rad]
+constexpr std::size_t kMaxOffsets = 12;    ///< With more, channels of an antenna share a slot.
+constexpr double kAnyOffset = 100.0;       ///< Variance of an unknown offset.
+constexpr double kKnownOffset = 1e-6;      ///< Variance of a known offset.
+constexpr int kPasses = 4;                 ///< Iterations after the last jump was found.
+constexpr int kPassesBefore = 3;           ///< Iterations to settle before jumps are searched.
+constexpr int kMaxJumps = 4;               ///< Maximum number of searches that find jumps.
+constexpr double kNearestApproach = 1e-3;  ///< [m]
+constexpr double kMinMotionNoise = 0.02;   ///< [rad]
 /// Directions with less information than this, relative to the largest, are unknown.
 constexpr double kUnknown = 1e-9;
 constexpr std::size_t kJumpSpan = 6;  ///< Reads before and after a jump used to detect it.
-constexpr double kLeastJump = 0.8;    ///< [rad]
+constexpr double kMinJump = 0.8;      ///< [rad]
 
 /// State entry that holds each read's offset, and whether the offset is reset there.
 struct Slots {
@@ -70,7 +70,7 @@ struct Input {
 };
 
 Slots slots_of(const Pass& pass) {
-  const bool each = pass.groups <= kMostOffsets;
+  const bool each = pass.groups <= kMaxOffsets;
   Slots slots;
   slots.size = 6 + static_cast<Eigen::Index>(each ? pass.groups : pass.antennas.size());
   std::map<std::size_t, std::size_t> last;  // group, by slot
@@ -281,7 +281,7 @@ bool split_at_jumps(const Pass& pass, const std::vector<double>& residuals, doub
     if (!pass.reads[i].offset_known) series[slots.of_read[i]].push_back(i);
   }
   const double least =
-      std::max(kLeastJump, 6.0 * noise_rad * std::sqrt(2.0 / static_cast<double>(kJumpSpan)));
+      std::max(kMinJump, 6.0 * noise_rad * std::sqrt(2.0 / static_cast<double>(kJumpSpan)));
   bool split = false;
   for (const auto& [slot, of_slot] : series) {
     double largest = least;
@@ -331,7 +331,7 @@ double evidence_of(const Input& input, const Slots& slots, const Forward& forwar
   const auto count = static_cast<double>(input.pass.reads.size());
   double log_evidence = forward.log_likelihood + 0.5 * count * std::log(kTwoPi);
   log_evidence +=
-      0.5 * std::log(kPi / count) - std::log(std::log(kMostPhaseNoise_rad / kLeastMotionNoise));
+      0.5 * std::log(kPi / count) - std::log(std::log(kMaxPhaseNoise_rad / kMinMotionNoise));
   const Slots before = slots_of(input.pass);
   for (std::size_t i = 0; i < slots.fresh.size(); ++i) {
     if (slots.fresh[i] == 0 || input.pass.reads[i].offset_known) continue;
@@ -436,8 +436,8 @@ Track smooth(const Pass& pass, const TrackingOptions& options, Linearization lin
     forward = filter(input, slots, noise, smoothed);
     smoothed = smooth_backward(forward.steps);
     residuals = residuals_of(pass, slots, smoothed);
-    if (!keep_noise) noise = robust_noise(residuals, 4 + count_fresh(slots), kLeastMotionNoise);
-    if (iteration >= kPassesBefore && splits < kMostJumps &&
+    if (!keep_noise) noise = robust_noise(residuals, 4 + count_fresh(slots), kMinMotionNoise);
+    if (iteration >= kPassesBefore && splits < kMaxJumps &&
         split_at_jumps(pass, residuals, noise, slots)) {
       ++splits;
       smoothed = {};  // Its offsets do not reflect the jump.

@@ -24,8 +24,8 @@ Scene scene_of(const Shape& shape, const RigidTransform& X_WC = {}) {
   return scene;
 }
 
-Ray ray_of(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, float most_m = kFar) {
-  return {origin.cast<float>(), direction.normalized().cast<float>(), most_m};
+Ray ray_of(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, float max_m = kFar) {
+  return {origin.cast<float>(), direction.normalized().cast<float>(), max_m};
 }
 
 /// Both functions, which must agree.
@@ -155,7 +155,7 @@ RC_GTEST_PROP(RayScene, MeetsAnyPlaneWhereTheFormulaSays, ()) {
   const double expected = -normal.dot(p_C) / normal.norm() / slope;
   const RayScene rays(scene_of(Plane{normal, {1.0, 1.0}}, X_WC));
   const float distance = distance_of(rays, ray);
-  if (expected < 0.0 || expected > ray.most_m) {
+  if (expected < 0.0 || expected > ray.max_m) {
     RC_ASSERT(distance == kNothing);
   } else {
     RC_ASSERT(std::abs(distance - expected) < 1e-4 * (1.0 + expected));

@@ -54,7 +54,7 @@ TEST(ScanMessage, AnEndlessRangeIsCut) {
   sensor_msgs::LaserScan message = scan_message();
   message.range_max = kInfinity;
   const LaserScan scan = scan_of(message);
-  EXPECT_EQ(scan.max_range_m, kMostRange);
+  EXPECT_EQ(scan.max_range_m, kMaxRange);
   EXPECT_EQ(beam_of(scan, scan.ranges_m[0]), Beam::kNothing);
   EXPECT_EQ(beam_of(scan, scan.ranges_m[8]), Beam::kReturn);
 }

@@ -70,7 +70,7 @@ std::string swapped_antennas(const FixedScene& scene, const std::vector<std::siz
                           : learn_law(grids, scene.antennas.size(), options).evidence;
   const auto best = std::max_element(evidences.begin(), evidences.end());
   if (best == evidences.end()) return "";
-  const double by_chance = kLeastLogEvidence + std::log(static_cast<double>(pairs.size()));
+  const double by_chance = kMinLogEvidence + std::log(static_cast<double>(pairs.size()));
   // Reflections and unknown lobes also make another order likelier in real rooms, but seldom by as
   // much as the given order explains (docs/methods.md).
   if (*best - told < std::max(by_chance, told)) return "";

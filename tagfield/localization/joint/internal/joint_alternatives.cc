@@ -67,7 +67,7 @@ void add_mirrored(JointState& state, int threads) {
     tag.fit.unknowns.head<2>() = mirror_image(way.places, tag.fit.unknowns.head<2>());
     tag.fit.offsets = offsets_at(tag.phases, tag.height, tag.fit.unknowns);
   }
-  if (minimize(mirrored, kMostRoundsOfJointFit, threads) > cost + kClearlyWorse) return;
+  if (minimize(mirrored, kMaxRoundsOfJointFit, threads) > cost + kClearlyWorse) return;
   const JointCovariance covariance = covariance_of(mirrored, threads);
   for (std::size_t i = 0; i < mirrored.tags.size(); ++i) {
     const JointTag& tag = state.system.tags[i];
@@ -152,12 +152,12 @@ void add_other_places(JointState& state, BestFits& best, int threads) {
 }  // namespace
 
 void find_alternatives(JointState& state, int threads) {
-  constexpr int kMostRounds = 3;
+  constexpr int kMaxRounds = 3;
   constexpr double kFarBetter = 0.25;  // Half of the residuals.
   for (int round = 0;; ++round) {
     BestFits best(state.system.tags.size());
     add_other_places(state, best, threads);
-    if (round == kMostRounds || !go_on_from(state, best, kFarBetter, threads)) break;
+    if (round == kMaxRounds || !go_on_from(state, best, kFarBetter, threads)) break;
     for (std::vector<Candidate>& others : state.alternatives) others.clear();
   }
   add_mirrored(state, threads);

@@ -145,9 +145,9 @@ void add_bend(const JointTag& tag, Index i, const Eigen::Vector2d& moved, ReadNo
   const Eigen::Vector3d gone = to_position(tag.height, tag.fit.unknowns) - slopes.p_WT;
   // The true antenna position is the believed one minus the displacement.
   now.range.r += by_place.dot(gone) - by_antenna.head<2>().dot(moved - slopes.moved.col(i));
-  constexpr double kLeastVariance = 1e-6;
+  constexpr double kMinVariance = 1e-6;
   now.range.gradient +=
-      place_jacobian(tag.height, tag.fit.unknowns, kLeastVariance).transpose() * by_place;
+      place_jacobian(tag.height, tag.fit.unknowns, kMinVariance).transpose() * by_place;
   now.by_antenna_error -= by_antenna;
 }
 

@@ -69,18 +69,18 @@ Trial tried(JointSystem& system, const Standing& from, const PoseKnots& knots, d
 
 void learn_pose_error(JointState& state, int threads) {
   constexpr double kStep = 1.6;
-  constexpr int kMostTrials = 24;
+  constexpr int kMaxTrials = 24;
   JointSystem& system = state.system;
   if (system.knots.count() == 0) return;
   const PoseKnots knots = system.knots;
   Trial best = tried(system, standing_of(system), knots, 1.0, knots.time_constant_s, threads);
   int trials = 1;
   // Increases or decreases each of the two as long as the evidence improves.
-  for (bool any = true; any && trials < kMostTrials;) {
+  for (bool any = true; any && trials < kMaxTrials;) {
     any = false;
     for (const auto& [by, of_time] :
          {std::pair{kStep, false}, {1.0 / kStep, false}, {kStep, true}, {1.0 / kStep, true}}) {
-      while (trials < kMostTrials) {
+      while (trials < kMaxTrials) {
         const double factor = of_time ? best.factor : best.factor * by;
         const double time_constant = of_time ? best.time_constant_s * by : best.time_constant_s;
         if (factor < 0.02 || factor > 20.0 || time_constant < 0.2 || time_constant > 200.0) break;
@@ -93,7 +93,7 @@ void learn_pose_error(JointState& state, int threads) {
     }
   }
   put(best.at, system);
-  minimize(system, kMostRoundsOfJointFit, threads);
+  minimize(system, kMaxRoundsOfJointFit, threads);
 }
 
 }  // namespace tagfield

@@ -25,7 +25,7 @@ using Index = Eigen::Index;
 
 /// Knots per time constant: linear interpolation misses 2 % of the variance.
 constexpr double kStateKnots = 40.0;
-constexpr double kMostWork = 3e10;  ///< Multiplications per solution: about a second.
+constexpr double kMaxWork = 3e10;  ///< Multiplications per solution: about a second.
 constexpr double kKnotsToLook = 1000.0;
 
 PoseErrorModel model_of(const LocalizationProblem& problem) {
@@ -84,12 +84,12 @@ double knot_spacing(const LocalizationProblem& problem, std::size_t tags,
   const auto unknowns =
       static_cast<Index>(2.0 * duration / fine) + 2 * static_cast<Index>(periods.size());
   const auto of_tags = static_cast<Index>(tags) * kUnknownsOfTag;
-  if (eliminates_knots_first(unknowns, of_tags, 2.0 * kMostWork)) return fine;
+  if (eliminates_knots_first(unknowns, of_tags, 2.0 * kMaxWork)) return fine;
   // The envelope's work grows with the cube of the number of knots, so an estimate with wide
   // spacing suffices.
   const double wide = std::max(fine, duration / kKnotsToLook);
   const double work = work_of(problem, make_knots(problem, &model, wide));
-  return std::max(fine, wide * std::cbrt(work / kMostWork));
+  return std::max(fine, wide * std::cbrt(work / kMaxWork));
 }
 
 /// Covariances that come with the poses are used only if no model was given.
@@ -277,10 +277,10 @@ void take_samples(JointState& state, std::size_t index, const SamplesOfTag& samp
 
 void fit_unwrapped_jointly(JointState& state, int threads) {
   JointSystem& system = state.system;
-  minimize(system, kMostRoundsOfJointFit, threads);
+  minimize(system, kMaxRoundsOfJointFit, threads);
   system.noise_rad = noise_of_neighbours(system);
   weigh(system);
-  minimize(system, kMostRoundsOfJointFit, threads);
+  minimize(system, kMaxRoundsOfJointFit, threads);
 }
 
 void for_each_corrected_fit(const JointState& state, int threads,
@@ -310,14 +310,14 @@ bool go_on_from(JointState& state, const BestFits& best, double better, int thre
   }
   if (!any) return false;
   weigh(state.system);
-  minimize(state.system, kMostRoundsOfJointFit, threads);
+  minimize(state.system, kMaxRoundsOfJointFit, threads);
   return true;
 }
 
 void find_better_positions(JointState& state, int threads) {
-  constexpr int kMostRounds = 3;
+  constexpr int kMaxRounds = 3;
   constexpr double kBetter = 0.85;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     BestFits best(state.system.tags.size());
     for_each_corrected_fit(state, threads, [&](std::size_t i, const UnwrappedFit& fit) {
       if (!fit.fits.empty()) best[i] = fit.fits.front();
@@ -333,10 +333,10 @@ void fit_wrapped_jointly(JointState& state, int threads) {
     JointTag wrapped = wrapped_tag(state, i);
     if (fits_as_well(wrapped, system.tags[i])) system.tags[i] = std::move(wrapped);
   });
-  minimize(system, kMostRoundsOfJointFit, threads);
+  minimize(system, kMaxRoundsOfJointFit, threads);
   system.noise_rad = noise_of_neighbours(system);
   weigh(system);
-  minimize(system, kMostRoundsOfJointFit, threads);
+  minimize(system, kMaxRoundsOfJointFit, threads);
 }
 
 Candidate candidate_of(const JointSystem& system, std::size_t tag,

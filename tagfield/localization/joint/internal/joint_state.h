@@ -17,7 +17,7 @@
 namespace tagfield {
 
 /// Maximum rounds of minimize() from a distant start.
-inline constexpr int kMostRoundsOfJointFit = 25;
+inline constexpr int kMaxRoundsOfJointFit = 25;
 
 struct JointState {
   const LocalizationProblem* problem = nullptr;

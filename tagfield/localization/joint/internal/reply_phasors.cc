@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kLanes = 16;  ///< Number of points whose sums stay in registers.
 static_assert(kTile % kLanes == 0);
-constexpr float kNearest = 0.01f;      ///< To a source [m].
-constexpr float kLeastField = 1e-12f;  ///< Smaller field amplitudes count as zero.
+constexpr float kNearest = 0.01f;    ///< To a source [m].
+constexpr float kMinField = 1e-12f;  ///< Smaller field amplitudes count as zero.
 
 using Lane = float[kLanes];
 
@@ -76,11 +76,11 @@ struct LaneWay {
 inline void way_of(const LaneField& f, LaneWay& way) {
   for (int k = 0; k < kLanes; ++k) {
     const float power = f.re[k] * f.re[k] + f.im[k] * f.im[k];
-    const float some = power > kLeastField * kLeastField ? power : kLeastField * kLeastField;
+    const float some = power > kMinField * kMinField ? power : kMinField * kMinField;
     const float size = std::sqrt(some);
     way.cosine[k] = f.re[k] / size;
     way.sine[k] = f.im[k] / size;
-    const float all = f.amplitudes[k] > kLeastField ? f.amplitudes[k] : kLeastField;
+    const float all = f.amplitudes[k] > kMinField ? f.amplitudes[k] : kMinField;
     way.directness[k] = f.direct[k] / all;
     way.x[k] = (f.x_re[k] * f.re[k] + f.x_im[k] * f.im[k]) / some - f.straight_x[k];
     way.y[k] = (f.y_re[k] * f.re[k] + f.y_im[k] * f.im[k]) / some - f.straight_y[k];

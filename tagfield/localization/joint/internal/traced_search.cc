@@ -100,15 +100,15 @@ struct Look {
 /// vanish, but not at each step: in a large world, tracing takes most of the time.
 Place climb(const TracedSearch& search, const TracedLayout& layout, const std::string& tag,
             const Place& from, const std::vector<double>& steps_m) {
-  constexpr int kMostTraced = 3;
-  constexpr int kMostMoves = 4;       // Per step length.
+  constexpr int kMaxTraced = 3;
+  constexpr int kMaxMoves = 4;        // Per step length.
   constexpr double kStillHere = 2.0;  // Of the finest steps.
   Place best = from;
-  for (int traced = 0; traced < kMostTraced; ++traced) {
+  for (int traced = 0; traced < kMaxTraced; ++traced) {
     const Vector3d origin = best.p_WT;
     const std::vector<NearReply> here = replies_about(search, layout, tag, origin);
     for (const double step : steps_m) {
-      for (int move = 0; move < kMostMoves; ++move) {
+      for (int move = 0; move < kMaxMoves; ++move) {
         const Place next = look_about(search, layout, here, origin, {best.p_WT, 2, step}).front();
         const double moved = (next.p_WT - best.p_WT).norm();
         best = next;

@@ -91,13 +91,13 @@ double share_at(const JointState& state, std::size_t index) {
 }
 
 /// Lower shares mean a wrong position or a wrong world: noise alone leaves e^(−σ²/2).
-double least_share(const JointState& state) {
+double min_share(const JointState& state) {
   constexpr double kOfNoiseAlone = 0.85;
   return kOfNoiseAlone * std::exp(-0.5 * state.system.noise_rad * state.system.noise_rad);
 }
 
 double fit_weight(const JointState& state, std::size_t index) {
-  const bool adds_up = share_at(state, index) >= least_share(state);
+  const bool adds_up = share_at(state, index) >= min_share(state);
   return adds_up ? state.system.tags[index].weight : 0.0;
 }
 
