@@ -2,8 +2,8 @@
 # Precompiled headers: library headers that most sources include and that take longer to compile than the
 # sources. -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON compiles without them.
 set(tagfield_common_headers
-  <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <string> <vector>
-  <Eigen/Geometry>)
+  <algorithm> <chrono> <cmath> <filesystem> <functional> <map> <memory> <optional> <set> <span> <string>
+  <unordered_map> <variant> <vector> <Eigen/Geometry>)
 set(nothing ${PROJECT_BINARY_DIR}/nothing.cc)
 if(NOT EXISTS ${nothing})
   file(WRITE ${nothing} "")

@@ -28,7 +28,7 @@ namespace tagfield {
 enum class TagSide { kLeft, kRight, kPlusX, kMinusX, kPlusY, kMinusY };
 
 /// Names of the values, in their order.
-inline const std::vector<std::string> kTagSides = {"left", "right", "+x", "-x", "+y", "-y"};
+const std::vector<std::string>& tag_sides();
 
 /// The side with this name; throws Error on any other.
 TagSide tag_side(const std::string& word);
@@ -46,8 +46,8 @@ bool is_within(const TagArea& area, const Eigen::Vector2d& middle, const Eigen::
 /// Line along the antennas' path: the midpoint, and the direction of the longest extent, pointing
 /// away from the first position.
 struct PathLine {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  Eigen::Vector2d along = Eigen::Vector2d::UnitX();
+  Eigen::Vector2d middle{0.0, 0.0};
+  Eigen::Vector2d along{1.0, 0.0};
 };
 PathLine path_line(const std::vector<Eigen::Vector2d>& places);
 

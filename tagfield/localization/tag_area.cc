@@ -47,9 +47,14 @@ void drop_repeats(std::vector<Candidate>& candidates) {
 
 }  // namespace
 
+const std::vector<std::string>& tag_sides() {
+  static const std::vector<std::string> sides = {"left", "right", "+x", "-x", "+y", "-y"};
+  return sides;
+}
+
 TagSide tag_side(const std::string& word) {
-  const auto found = std::find(kTagSides.begin(), kTagSides.end(), word);
-  if (found != kTagSides.end()) return static_cast<TagSide>(found - kTagSides.begin());
+  const auto found = std::find(tag_sides().begin(), tag_sides().end(), word);
+  if (found != tag_sides().end()) return static_cast<TagSide>(found - tag_sides().begin());
   throw Error("the side is '" + word + "', expected left, right, +x, -x, +y or -y");
 }
 

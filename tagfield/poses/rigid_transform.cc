@@ -31,6 +31,23 @@ Eigen::Quaterniond on_great_arc(const Eigen::Quaterniond& from, Eigen::Quaternio
 
 }  // namespace
 
+RigidTransform RigidTransform::operator*(const RigidTransform& X_BC) const {
+  return {(rotation * X_BC.rotation).normalized(), rotation * X_BC.translation + translation};
+}
+
+Eigen::Vector3d RigidTransform::operator*(const Eigen::Vector3d& p_B) const {
+  return rotation * p_B + translation;
+}
+
+RigidTransform RigidTransform::inverse() const {
+  const Eigen::Quaterniond inverse_rotation = rotation.conjugate();
+  return {inverse_rotation, -(inverse_rotation * translation)};
+}
+
+bool is_finite(const RigidTransform& X) {
+  return X.translation.allFinite() && X.rotation.coeffs().allFinite();
+}
+
 std::optional<Eigen::Quaterniond> as_rotation(const Eigen::Quaterniond& quaternion) {
   const double length_error = std::abs(quaternion.norm() - 1.0);
   if (length_error <= 1e-9) return quaternion;

@@ -12,27 +12,18 @@ namespace tagfield {
 
 /// A rotation (unit quaternion) and a translation [m].
 struct RigidTransform {
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation{1.0, 0.0, 0.0, 0.0};  ///< w, x, y, z.
+  Eigen::Vector3d translation{0.0, 0.0, 0.0};
 
   /// X_AC = X_AB * X_BC.
-  RigidTransform operator*(const RigidTransform& X_BC) const {
-    return {(rotation * X_BC.rotation).normalized(), rotation * X_BC.translation + translation};
-  }
+  RigidTransform operator*(const RigidTransform& X_BC) const;
   /// p_A = X_AB * p_B.
-  Eigen::Vector3d operator*(const Eigen::Vector3d& p_B) const {
-    return rotation * p_B + translation;
-  }
+  Eigen::Vector3d operator*(const Eigen::Vector3d& p_B) const;
   /// X_BA of X_AB.
-  [[nodiscard]] RigidTransform inverse() const {
-    const Eigen::Quaterniond inverse_rotation = rotation.conjugate();
-    return {inverse_rotation, -(inverse_rotation * translation)};
-  }
+  [[nodiscard]] RigidTransform inverse() const;
 };
 
-inline bool is_finite(const RigidTransform& X) {
-  return X.translation.allFinite() && X.rotation.coeffs().allFinite();
-}
+bool is_finite(const RigidTransform& X);
 
 /// `quaternion` as a rotation: unchanged if its norm is 1 within 1e-9, so that written values are
 /// restored exactly; normalized if the norm is 0.9 to 1.1; otherwise none.

@@ -44,7 +44,7 @@ Eigen::Vector3d position_of(const YamlValue& value) {
 
 TagArea tag_area_of(YamlMap& map) {
   TagArea area;
-  if (map.has("side")) area.side = static_cast<TagSide>(choice(map.at("side"), kTagSides));
+  if (map.has("side")) area.side = static_cast<TagSide>(choice(map.at("side"), tag_sides()));
   if (map.has("box")) {
     const std::vector<double> n = map.at("box").lengths(4, 4);
     const Eigen::Vector2d one(n[0], n[1]);
