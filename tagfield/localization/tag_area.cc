@@ -48,7 +48,8 @@ void drop_repeats(std::vector<Candidate>& candidates) {
 }  // namespace
 
 const std::vector<std::string>& tag_sides() {
-  static const std::vector<std::string> sides = {"left", "right", "+x", "-x", "+y", "-y"};
+  static const std::vector<std::string> sides = {// In the order of TagSide.
+                                                 "left", "right", "+x", "-x", "+y", "-y"};
   return sides;
 }
 
