@@ -17,7 +17,7 @@ constexpr double kAwayFactor = 1.035;
 constexpr double kOtherAlongStep = 1.0 / 3.0;  ///< Of the second path's positions [λ].
 constexpr double kOtherAwayFactor = 1.12;
 constexpr double kMinPathLeft = 1e-6;  ///< Of the power; the limit of float precision.
-constexpr Eigen::Index kBlock = 64;
+constexpr Eigen::Index kRowsAtOnce = 64;
 
 Eigen::ArrayXd evenly(double low, double high, double step) {
   const auto count = static_cast<Eigen::Index>(std::ceil((high - low) / step)) + 1;
@@ -116,8 +116,8 @@ TwoPathLikelihood two_path_likelihood(const ScanField& scan, const ScanGrid& gri
   const double exponent = std::max(scan.samples - 2.0, 1.0);
   Eigen::ArrayXd likelihood(rows.rows());
   float least = 1.0f;
-  for (Eigen::Index begin = 0; begin < rows.rows(); begin += kBlock) {
-    const Eigen::Index count = std::min(kBlock, rows.rows() - begin);
+  for (Eigen::Index begin = 0; begin < rows.rows(); begin += kRowsAtOnce) {
+    const Eigen::Index count = std::min(kRowsAtOnce, rows.rows() - begin);
     const Eigen::MatrixXcf overlaps =
         others.rows * rows.middleRows(begin, count).adjoint();  // One column per position.
     for (Eigen::Index i = 0; i < count; ++i) {

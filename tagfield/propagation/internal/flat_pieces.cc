@@ -172,6 +172,7 @@ std::array<Eigen::Vector2d, 3> in_frame(const Facet& facet, const Corners& corne
 Facet facet_of(const Grower& grower, const std::vector<std::uint32_t>& region,
                const Pieces& pieces) {
   std::vector<Corners> triangles;
+  triangles.reserve(region.size());
   for (const std::uint32_t triangle : region) triangles.push_back(grower.corners(triangle));
   Facet facet;
   facet.shell = pieces.of_triangle[region.front()];
@@ -179,6 +180,7 @@ Facet facet_of(const Grower& grower, const std::vector<std::uint32_t>& region,
   facet.two_sided = !piece.closed;
   set_plane(triangles, facet);
   set_rectangle(triangles, facet);
+  facet.triangles.reserve(triangles.size());
   for (const Corners& corners : triangles) facet.triangles.push_back(in_frame(facet, corners));
   if (piece.inverted) {
     facet.normal_W = -facet.normal_W;
