@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads of one tag from a straight way past it, φ = 4πr/λ, are located: with the installed
+// Reads of one tag from a straight path past it, φ = 4πr/λ, are located: with the installed
 // libraries of localization alone.
 #include <cmath>
 #include <cstdio>
