@@ -40,7 +40,7 @@ Complex reflection_of_slab(Complex face, Complex once) {
   return face * (1.0 - twice) / (1.0 - face * face * twice);
 }
 
-/// `relative` is `once` without the phase of the same way through air.
+/// `relative` is `once` without the phase of the same path through air.
 Complex transmission_of_slab(Complex face, Complex once, Complex relative) {
   const Complex twice = face * face;
   return (1.0 - twice) * relative / (1.0 - twice * once * once);
