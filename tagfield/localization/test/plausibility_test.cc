@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -49,6 +50,31 @@ TEST(Plausibility, ChanceOfPairsIsBoundedFromAbove) {
     beyond += log_chance(pairs, random_sum(pairs, rng), 1.0) < std::log(0.05) ? 1 : 0;
   }
   EXPECT_LE(beyond, 0.05 * kDraws);
+}
+
+/// E e^(λ|S|) of two random phasors, |S| = 2|cos(θ/2)|: the sum over a period converges at once.
+double mean_of_pair(double lambda) {
+  constexpr int kSteps = 20000;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    sum += std::exp(2.0 * lambda * std::abs(std::cos(0.5 * kTwoPi * i / kSteps)));
+  }
+  return sum / kSteps;
+}
+
+TEST(Plausibility, ChanceOfPairsIsChernoffsBound) {
+  constexpr double kPairs = 40.0;
+  // The mean sum is 40·4/π = 51.
+  for (const double sum : {56.0, 62.0, 68.0, 74.0}) {
+    double least = 0.0;
+    for (double lambda = 0.01; lambda < 20.0; lambda *= 1.01) {
+      least = std::min(least, kPairs * std::log(mean_of_pair(lambda)) - lambda * sum);
+    }
+    const double found = log_chance(std::vector<double>(40, 2.0), sum, 1.0);
+    // Any λ gives a bound; that of a coarser search is a little above the least.
+    EXPECT_GE(found, least - 1e-3) << sum;
+    EXPECT_LE(found, 0.95 * least) << sum;
+  }
 }
 
 TEST(Plausibility, FreeOffsetsCount) {
