@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "tagfield/propagation/internal/on_facet.h"
+
 namespace tagfield {
 namespace {
 
@@ -45,11 +47,6 @@ Polygon cut(const Polygon& polygon, const Eigen::Vector4d& plane) {
 
 Eigen::Vector3d point_of(const Facet& facet, double u, double v) {
   return facet.corner_W + u * facet.axis_u_W + v * facet.axis_v_W;
-}
-
-Eigen::Vector2d in_frame(const Facet& facet, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d from_corner = p - facet.corner_W;
-  return {facet.axis_u_W.dot(from_corner), facet.axis_v_W.dot(from_corner)};
 }
 
 Polygon outline(const Facet& facet, const Window& window) {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "tagfield/propagation/internal/on_facet.h"
+
 namespace tagfield {
 namespace {
 
@@ -159,16 +161,6 @@ void set_rectangle(const std::vector<Corners>& triangles, Facet& facet) {
   facet.rectangular = facet.area_m2 > (1.0 - kRectangle) * least.size.prod();
 }
 
-/// In the frame of the facet's rectangle.
-std::array<Eigen::Vector2d, 3> in_frame(const Facet& facet, const Corners& corners) {
-  std::array<Eigen::Vector2d, 3> flat;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector3d from_corner = corners[k] - facet.corner_W;
-    flat[k] = {facet.axis_u_W.dot(from_corner), facet.axis_v_W.dot(from_corner)};
-  }
-  return flat;
-}
-
 Facet facet_of(const Grower& grower, const std::vector<std::uint32_t>& region,
                const Pieces& pieces) {
   std::vector<Corners> triangles;
@@ -181,7 +173,9 @@ Facet facet_of(const Grower& grower, const std::vector<std::uint32_t>& region,
   set_plane(triangles, facet);
   set_rectangle(triangles, facet);
   facet.triangles.reserve(triangles.size());
-  for (const Corners& corners : triangles) facet.triangles.push_back(in_frame(facet, corners));
+  for (const auto& [a, b, c] : triangles) {
+    facet.triangles.push_back({in_frame(facet, a), in_frame(facet, b), in_frame(facet, c)});
+  }
   if (piece.inverted) {
     facet.normal_W = -facet.normal_W;
     facet.offset_m = -facet.offset_m;

@@ -27,8 +27,7 @@ bool is_in(const std::array<Eigen::Vector2d, 3>& corners, const Eigen::Vector2d&
 
 bool is_on(const Facet& facet, const Eigen::Vector3d& p_W) {
   if (facet.unbounded) return true;
-  const Eigen::Vector3d from_corner = p_W - facet.corner_W;
-  const Eigen::Vector2d uv(facet.axis_u_W.dot(from_corner), facet.axis_v_W.dot(from_corner));
+  const Eigen::Vector2d uv = in_frame(facet, p_W);
   if (!(uv.x() >= 0.0 && uv.x() <= facet.size_m.x() && uv.y() >= 0.0 &&
         uv.y() <= facet.size_m.y())) {
     return false;
