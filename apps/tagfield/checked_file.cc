@@ -125,7 +125,7 @@ Json describe_table(const std::string& path) {
     json = {{"kind", "heights of tags"}, {"tags", read_tag_heights_csv(path).size()}};
   } else if (has({"tag", "x_m", "y_m"}) && !has({"stamp_s"})) {
     if (has({"verdict"}) || !has({"z_m"})) return describe_estimates(path);
-    json = {{"kind", "places of tags"}, {"tags", read_tag_positions_csv(path).size()}};
+    json = {{"kind", "positions of tags"}, {"tags", read_tag_positions_csv(path).size()}};
   } else if (has({"stamp_s", "tag", "x_m"}) || has({"stamp_s", "robot", "x_m"}) ||
              has({"distance_m"})) {
     json = {{"kind", "table of the truth"}, {"rows", rows}, {"columns", head.header}};

@@ -78,7 +78,9 @@ TableFiles own_tables(const std::string& command, const std::string& reads,
   TableFiles files{of_run ? (folder / "reads.csv").string() : reads, poses};
   if (poses.empty() && of_run) files.poses = (folder / "antenna_poses.csv").string();
   if (files.poses.empty()) {
-    throw Error(command + ": reads as CSV need --poses FILE, the poses of their antennas");
+    throw Error(command +
+                ": reads as CSV need --poses FILE, the poses of their antennas, or a --format that "
+                "has them in the same table (docs/datasets.md)");
   }
   finish_commit(folder);
   return files;

@@ -421,8 +421,9 @@ void add_localize_command(CLI::App& app, Action& chosen) {
   command->add_option("--method", arguments->method,
                       "Method, one of those below (default: the scenario's, or else auto)");
   add_known_options(*command, *arguments);
-  command->add_option("--calibration", arguments->calibration,
-                      "Profile by 'tagfield calibrate': corrects antenna places, stamps, phases");
+  command->add_option(
+      "--calibration", arguments->calibration,
+      "Profile by 'tagfield calibrate': corrects antenna positions, stamps, phases");
   command
       ->add_option(
           "--set", arguments->settings,

@@ -3,6 +3,7 @@
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -20,7 +21,18 @@ struct ReadColumns {
   std::optional<std::size_t> reader, phase, doppler;  ///< Optional columns.
 };
 
+/// Refuses a table from another source as a whole, as all of its columns would have to be renamed.
+void require_own_format(const CsvTable& table) {
+  if (table.has_column("stamp_s") || table.has_column("tag")) return;
+  fail({table.file, 1},
+       fmt::format("not in Tagfield's own format (stamp_s,reader,antenna,tag,frequency_hz,"
+                   "phase_rad,rssi_dbm), as its columns are {}; localize, track and calibrate read "
+                   "other formats by --format (docs/datasets.md)",
+                   fmt::join(table.header, ",")));
+}
+
 ReadColumns columns_of(const CsvTable& table) {
+  require_own_format(table);
   const auto if_there = [&](const char* name) {
     return table.has_column(name) ? std::optional(table.column(name)) : std::nullopt;
   };

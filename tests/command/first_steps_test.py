@@ -146,7 +146,7 @@ def check_takes_every_kind_of_file(context):
         out / "truth/distances.csv": "table of the truth",
         context.source / "worlds/small_warehouse.sdf": "world",
         context.write("heights.csv", "tag,height_m\na,1.2\n"): "heights of tags",
-        context.write("places.csv", "tag,x_m,y_m,z_m\na,1,2,3\n"): "places of tags",
+        context.write("places.csv", "tag,x_m,y_m,z_m\na,1,2,3\n"): "positions of tags",
         context.write("events.yaml", "events:\n  presence: {reads: 2, within_s: 1, gone_after_s: 3}\n"): "events",
         context.write("map.pgm", b"P5\n3 2\n255\n" + bytes([254, 0, 205] * 2)).with_name("map.yaml"): "map",
         context.write("calibration.yaml", "name: dock\nkind: calibration\nantennas: {}\n"): "calibration"}

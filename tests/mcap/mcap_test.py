@@ -203,7 +203,7 @@ def a_runs_messages_are_those_of_its_tables(context):
     places = {tag["epc"]: tag["position"] for tag in topics["/rfid/truth/tags"]["messages"][0]["tags"]}
     truth = {row["tag"]: {"x": float(row["x_m"]), "y": float(row["y_m"]), "z": float(row["z_m"])}
              for row in read_csv(folder / "truth/tags.csv")}
-    check_equal(places, truth, "places of tags")
+    check_equal(places, truth, "positions of tags")
     count = len(read_csv(folder / "truth/distances.csv"))
     check_equal(sum(len(message["distances"]) for message in topics["/rfid/truth/antennas"]["messages"]),
                 count, "distances")

@@ -24,7 +24,7 @@ Rows rows_at(const Eigen::Vector2d& theta, std::uint64_t seed, double noise) {
   Rng rng(seed);
   Rows rows;
   for (int i = 0; i < 40; ++i) {
-    const Eigen::Vector2d slope(uniform(rng, -1.0, 1.0), uniform(rng, -1.0, 1.0));
+    const Eigen::Vector2d slope{uniform(rng, -1.0, 1.0), uniform(rng, -1.0, 1.0)};
     const double measured = 0.7 + slope.dot(Eigen::Vector2d(0.2, -0.3)) + normal(rng, noise);
     rows.push_back({measured - slope.dot(theta), slope});
   }

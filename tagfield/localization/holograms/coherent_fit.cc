@@ -271,6 +271,18 @@ double fitted_away(const TagPhases& phases, const Eigen::ArrayXd& errors) {
          std::min(1.0, (correlation_factor(phases.spans, errors) - 1.0) / (kSlowErrors - 1.0));
 }
 
+/// Ratio of the error of a sum of phasors to the linear one. Normal phase errors with covariances
+/// c_ij scatter the sum's slope by e^(−c) sinh c_ij and reduce its curvature by e^(−c/2), so each
+/// c_ij counts as sinh c_ij: at most c's own ratio, sinh(c)/c, c being the variance of the phase
+/// that the stated pose error causes.
+double by_phasors(const TagPhases& phases) {
+  if (!phases.pose_error) return 1.0;
+  constexpr double kFullCircle = 10.0;  // [rad²]; beyond, no sum remains.
+  const double sigma_m = phases.pose_error->sigma_m;
+  const double c = std::min(sigma_m * sigma_m * phases.wavenumber.square().mean(), kFullCircle);
+  return c > 0.0 ? std::sqrt(std::sinh(c) / c) : 1.0;
+}
+
 /// Where phases are distorted, residuals may indicate larger errors than the given pose error.
 Candidate careful_candidate(const TagPhases& phases, const HeightModel& height,
                             const PositionVector& place, bool bent) {
@@ -321,7 +333,7 @@ PositionVector climb(const TagPhases& phases, const std::vector<Aperture>& parts
 Candidate candidate_at(const TagPhases& phases, const HeightModel& height,
                        const PositionVector& place) {
   const TagFit fit = fit_at(phases, height, place);
-  return make_candidate(phases, height, fit);
+  return scaled(make_candidate(phases, height, fit), by_phasors(phases));
 }
 
 TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,

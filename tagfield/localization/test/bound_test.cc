@@ -148,7 +148,8 @@ TEST(Bound, MeanErrorIsThatOfTheNormalDistribution) {
   double sum = 0.0;
   constexpr int kDraws = 200000;
   for (int i = 0; i < kDraws; ++i) {
-    sum += std::hypot(made::normal(rng, 3.0), made::normal(rng, 1.0));
+    const Eigen::Vector2d drawn{made::normal(rng, 3.0), made::normal(rng, 1.0)};
+    sum += drawn.norm();
   }
   const Eigen::Matrix3d ellipse = Eigen::Vector3d(9.0, 1.0, 0.0).asDiagonal();
   EXPECT_NEAR(mean_horizontal_error(ellipse), sum / kDraws, 0.02);  // Five standard deviations.

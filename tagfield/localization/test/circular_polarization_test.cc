@@ -16,7 +16,7 @@ using namespace made;
 using Eigen::Vector3d;
 
 Vector3d any_direction(Rng& rng) {
-  return Vector3d(normal(rng, 1.0), normal(rng, 1.0), normal(rng, 1.0)).normalized();
+  return Vector3d{normal(rng, 1.0), normal(rng, 1.0), normal(rng, 1.0)}.normalized();
 }
 
 /// A tag read from two aisles by a right-hand circular antenna that faces left of its path.
@@ -84,8 +84,9 @@ WireStudy study(bool is_known) {
   WireStudy all;
   const Path path = aisles(0.02);
   for (int i = 0; i < kTags; ++i) {
-    const WiredTag tag{beside(path, uniform(rng, 1.0, 3.0), uniform(rng, 0.4, 1.6), rng),
-                       any_direction(rng)};
+    const double away = uniform(rng, 1.0, 3.0);
+    const double height = uniform(rng, 0.4, 1.6);
+    const WiredTag tag{beside(path, away, height, rng), any_direction(rng)};
     LocalizationProblem problem = problem_of(tag, rng);
     if (is_known) problem.circular["a"] = Hand::kRight;
     Diagnostics diagnostics;

@@ -39,7 +39,7 @@ struct Hills {
 Hills some_hills(Rng& rng, std::size_t count) {
   Hills hills;
   while (hills.tops.size() < count) {
-    const Eigen::Vector2d top(uniform(rng, -2.8, 2.8), uniform(rng, -2.8, 2.8));
+    const Eigen::Vector2d top{uniform(rng, -2.8, 2.8), uniform(rng, -2.8, 2.8)};
     const bool is_apart =
         std::all_of(hills.tops.begin(), hills.tops.end(),
                     [&](const Eigen::Vector2d& other) { return (other - top).norm() > 1.0; });

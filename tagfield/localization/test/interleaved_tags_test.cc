@@ -45,7 +45,7 @@ LocalizationResult claimed(const made::Hall& hall, Rng& rng) {
     estimate.verdict = Verdict::kLocated;
     Candidate candidate;
     candidate.p_WT =
-        hall.truth.at(tag) + Eigen::Vector3d(made::normal(rng, kOff), made::normal(rng, kOff), 0.0);
+        hall.truth.at(tag) + Eigen::Vector3d{made::normal(rng, kOff), made::normal(rng, kOff), 0.0};
     candidate.expected_error_m = 0.4;
     estimate.candidates.push_back(candidate);
     result.estimates.push_back(estimate);

@@ -46,7 +46,7 @@ TEST(Landmarc, LocatesBetweenItsNeighbours) {
   Tally tally;
   for (int i = 0; i < 20; ++i) {
     LocalizationProblem problem = room_with_references(rng);
-    const Eigen::Vector3d p_WT(uniform(rng, 1.5, 4.5), uniform(rng, 1.5, 4.5), 1.0);
+    const Eigen::Vector3d p_WT{uniform(rng, 1.5, 4.5), uniform(rng, 1.5, 4.5), 1.0};
     problem.samples["a tag"] = read_in_room(p_WT, 1.0, rng);
     tally.add(locate_one(landmarc_method({}), problem), p_WT);  // The first in ascending order.
   }

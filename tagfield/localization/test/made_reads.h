@@ -81,12 +81,12 @@ struct Noise {
 /// The path as believed by the reader.
 inline Path believed(const Path& path, const Noise& noise, double rate_hz, Rng& rng) {
   Path beliefs = path;
-  Eigen::Vector3d error(normal(rng, noise.pose_m), normal(rng, noise.pose_m), 0.0);
+  Eigen::Vector3d error{normal(rng, noise.pose_m), normal(rng, noise.pose_m), 0.0};
   const double keep = noise.pose_time > 0.0 ? std::exp(-1.0 / (rate_hz * noise.pose_time)) : 0.0;
   for (Eigen::Vector3d& p : beliefs) {
     p += error;
     const double fresh = noise.pose_m * std::sqrt(1.0 - keep * keep);
-    error = keep * error + Eigen::Vector3d(normal(rng, fresh), normal(rng, fresh), 0.0);
+    error = keep * error + Eigen::Vector3d{normal(rng, fresh), normal(rng, fresh), 0.0};
   }
   return beliefs;
 }

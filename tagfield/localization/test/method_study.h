@@ -162,15 +162,18 @@ inline Path make_straight(Rng& rng) { return straight(10.0, 0.02, uniform(rng, 0
 /// Loops, S-curves, L-turns and rectangles of any size.
 inline Path make_any_shape(Rng& rng) {
   const double length = uniform(rng, 10.0, 25.0);
-  switch (static_cast<int>(uniform(rng, 0.0, 4.0))) {
+  const int shape = static_cast<int>(uniform(rng, 0.0, 4.0));
+  const double first = uniform(rng, 0.0, 1.0);
+  const double second = uniform(rng, 0.0, 1.0);
+  switch (shape) {
     case 0:
       return s_curve(length, 0.02);
     case 1:
       return loop(length, 0.02);
     case 2:
-      return l_turn(uniform(rng, 3.0, 8.0), uniform(rng, 3.0, 8.0), 0.02);
+      return l_turn(3.0 + 5.0 * first, 3.0 + 5.0 * second, 0.02);
     default:
-      return rectangle(uniform(rng, 1.0, 6.0), uniform(rng, 1.0, 4.0), length, 0.02);
+      return rectangle(1.0 + 5.0 * first, 1.0 + 3.0 * second, length, 0.02);
   }
 }
 

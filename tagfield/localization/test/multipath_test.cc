@@ -205,7 +205,7 @@ TEST(Multipath, WhatIsExplainedIsOfThePlaceThatIsClaimed) {
   const std::vector<Mirror> mirrors = walls(0.95);
   std::size_t claimed = 0;
   double most = 0.0;
-  for (unsigned seed = 1; seed <= 4; ++seed) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
     const Hall hall = hall_of({.pose_m = 0.03, .gain = 0.95, .believed_gain = 0.95}, seed);
     Diagnostics diagnostics;
     const LocalizationResult result =
@@ -230,8 +230,26 @@ TEST(Multipath, WhatIsExplainedIsOfThePlaceThatIsClaimed) {
       }
     }
   }
-  EXPECT_GE(claimed, 8U);  // Of 16.
+  EXPECT_GE(claimed, 12U);  // Of 24.
   EXPECT_LT(most, 1e-3);
+}
+
+TEST(Multipath, NoBentPathExplainsAWrongPosition) {
+  Tally tally;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const Hall hall = hall_of({.pose_m = 0.02}, seed);
+    Diagnostics diagnostics;
+    for (const TagEstimate& estimate :
+         multipath_method().locate(hall.problem, 2, diagnostics).estimates) {
+      tally.add(estimate, hall.truth.at(estimate.tag));
+      if (estimate.verdict != Verdict::kLocated) continue;
+      const Candidate& claimed = estimate.candidates.front();
+      const double error = (claimed.p_WT - hall.truth.at(estimate.tag)).norm();
+      EXPECT_LT(error, 5.0 * claimed.expected_error_m) << seed << " " << estimate.tag;
+    }
+  }
+  tally.finish();
+  EXPECT_GE(tally.errors.size(), 150U);  // Of 160.
 }
 
 TEST(Multipath, WithoutAWorldSaysSo) {

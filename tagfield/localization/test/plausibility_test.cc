@@ -174,9 +174,9 @@ TEST(Plausibility, AheadOfAStraightWayThereAreManyPlaces) {
     return (best.p_WT - tag).norm() > 5.0 * best.expected_error_m;
   };
   int before = 0;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 200; ++i) {
     LocalizationProblem problem;
-    const Eigen::Vector3d tag(made::uniform(rng, 6.1, 7.0), made::normal(rng, 0.03), 0.4);
+    const Eigen::Vector3d tag{made::uniform(rng, 6.1, 7.0), made::normal(rng, 0.03), 0.4};
     problem.samples["t"]["a"] = made::read_along(path, tag, {}, rng);
     problem.heights.of_all = 0.4;
     Diagnostics diagnostics;

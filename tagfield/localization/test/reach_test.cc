@@ -33,7 +33,7 @@ RC_GTEST_PROP(PlaneInReach, TellsOfPlacesAroundWhatEachTellsOfItself, ()) {
   const PlaneInReach plane(phases, 1.0, range);
   const Reach reach(phases, range);
   for (int k = 0; k < 300; ++k) {
-    const Eigen::Vector2d middle(made::uniform(rng, -11.0, 11.0), made::uniform(rng, -11.0, 11.0));
+    const Eigen::Vector2d middle{made::uniform(rng, -11.0, 11.0), made::uniform(rng, -11.0, 11.0)};
     const double radius = made::uniform(rng, 0.0, 1.5);
     const PlaneInReach::Surrounding around = plane.around(middle, radius);
     const PlaneInReach::Part part = around.part;

@@ -216,7 +216,7 @@ TEST(Sar, AReflectionCostsCentimetres) {
   Rng rng(23);
   for (int i = 0; i < 20; ++i) {
     const Path path = s_curve(15.0, 0.02);
-    const Eigen::Vector3d p_WT(uniform(rng, 3.0, 8.0), uniform(rng, 3.0, 5.0), 0.4);
+    const Eigen::Vector3d p_WT{uniform(rng, 3.0, 8.0), uniform(rng, 3.0, 5.0), 0.4};
     const auto samples = with_reflection(read_along(path, p_WT, Noise{}, rng), p_WT, 6.0);
     tally.add(locate_one(sar(), one_tag({{"a", samples}}, 0.4)), p_WT);
   }

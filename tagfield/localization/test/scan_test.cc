@@ -149,7 +149,7 @@ TEST(Scan, LocatesAmidEchoesAndKnowsHowWell) {
   for (int run = 0; run < kTags / 4; ++run) {
     std::vector<Eigen::Vector2d> tags;
     for (int i = 0; i < 4; ++i) {
-      tags.emplace_back(made::uniform(rng, 0.1, 0.9), made::uniform(rng, 0.5, 0.9));
+      tags.push_back({made::uniform(rng, 0.1, 0.9), made::uniform(rng, 0.5, 0.9)});
     }
     const auto estimates = estimates_of(problem_of(tags, 0.35, rng));
     for (std::size_t i = 0; i < tags.size(); ++i) {

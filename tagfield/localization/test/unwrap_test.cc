@@ -50,7 +50,7 @@ TEST(Unwrap, BreaksJustWhereTheTravelIsTooLong) {
     Rng rng(*rc::gen::arbitrary<std::uint64_t>());
     const double step = uniform(rng, 0.005, 0.05);
     const Path path = s_curve(6.0, step);
-    const Eigen::Vector3d p_WT(uniform(rng, -1.0, 5.0), uniform(rng, -4.0, 4.0), 1.0);
+    const Eigen::Vector3d p_WT{uniform(rng, -1.0, 5.0), uniform(rng, -4.0, 4.0), 1.0};
     Noise noise = kNoiseless;
     noise.lost = uniform(rng, 0.0, 0.7);
     const auto samples = read_along(path, path, p_WT, noise, rng);

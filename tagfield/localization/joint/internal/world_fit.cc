@@ -9,6 +9,7 @@
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
+#include "tagfield/localization/joint/internal/joint_equations.h"
 
 namespace tagfield {
 namespace {
@@ -176,13 +177,140 @@ void climb_all(WorldFit& fit, const std::vector<Vector3d>& before, const Multipa
   });
 }
 
-/// Updates tags that have moved since the fit: their bends, slopes and offsets still belong to the
-/// old positions, as do the weights of those where only noise remains now.
+/// Positions of the tags in the last round.
+struct LastRound {
+  std::vector<Vector3d> straightened;  ///< Where the bends were removed,
+  std::vector<Vector3d> fitted;        ///< and where the joint fit ended.
+};
+
+/// Removes the bends, fits jointly, and moves tags to clearly likelier positions.
+LastRound fit_once(WorldFit& fit, const MultipathOptions& options, bool is_late, int threads) {
+  LastRound last;
+  last.straightened = places_of(fit.state);
+  straighten_all(fit, options, threads);
+  fit_unwrapped_jointly(fit.state, threads);
+  last.fitted = places_of(fit.state);
+  climb_all(fit, last.straightened, options, is_late, threads);
+  return last;
+}
+
+bool has_settled(const JointState& state, const LastRound& last) {
+  constexpr double kSettled = 3e-4;  // [m]
+  return farthest_move(last.straightened, places_of(state)) < kSettled;
+}
+
+/// What a trial may change in a fit.
+struct Solution {
+  std::vector<PositionVector> unknowns;
+  std::vector<double> weights;
+  Eigen::VectorXd u;
+  double noise_rad = 0.0;
+  LastRound last;
+};
+
+Solution solution_of(const JointState& state, const LastRound& last) {
+  Solution solution{{}, {}, state.system.u, state.system.noise_rad, last};
+  for (const JointTag& tag : state.system.tags) {
+    solution.unknowns.push_back(tag.fit.unknowns);
+    solution.weights.push_back(tag.weight);
+  }
+  return solution;
+}
+
+/// The bends, slopes and offsets are those of the solution's end, not of its last round.
+void return_to(const Solution& solution, WorldFit& fit, const MultipathOptions& options,
+               int threads) {
+  JointSystem& system = fit.state.system;
+  for (std::size_t i = 0; i < system.tags.size(); ++i) {
+    system.tags[i].fit.unknowns = solution.unknowns[i];
+    system.tags[i].weight = solution.weights[i];
+  }
+  system.u = solution.u;
+  system.noise_rad = solution.noise_rad;
+  straighten_all(fit, options, threads);
+}
+
+/// −2 ln of the likelihood of all reads and of the pose error, up to a constant, for comparison at
+/// equal noise.
+double cost_at(const WorldFit& fit, const MultipathOptions& options, double noise_rad,
+               int threads) {
+  WorldFit same_noise = fit;
+  same_noise.state.system.noise_rad = noise_rad;
+  double cost = prior_cost(same_noise.state.system);
+  for (const Fit& of_tag : fits_of(same_noise, options, threads)) cost += of_tag.cost;
+  return cost;
+}
+
+/// The tags most likely to be at a wrong position, worst first: those with more than noise left,
+/// and if the pose error and the reads together cost more than noise would, the others too.
+std::vector<std::size_t> doubtful_tags(WorldFit& fit, const MultipathOptions& options,
+                                       int threads) {
+  constexpr std::size_t kMost = 8;
+  constexpr double kMoreThanNoise = 1.1;
+  JointSystem& system = fit.state.system;
+  const double cost = cost_of(system);
+  double reads = 0.0;
+  for (const JointTag& tag : system.tags) reads += static_cast<double>(tag.phases.size());
+  const std::vector<Fit> fits = fits_of(fit, options, threads);
+  std::vector<std::pair<double, std::size_t>> doubtful;
+  for (std::size_t i = 0; i < system.tags.size(); ++i) {
+    const JointTag& tag = system.tags[i];
+    const bool is_doubtful = cost > kMoreThanNoise * reads || !is_settled(fits[i]);
+    const double share = tag.fit.cost / std::max(static_cast<double>(tag.phases.size()), 1.0);
+    if (!tag.fixed && is_doubtful) doubtful.emplace_back(-share, i);
+  }
+  std::sort(doubtful.begin(), doubtful.end());
+  std::vector<std::size_t> numbers;
+  for (const auto& [share, i] : doubtful) {
+    if (numbers.size() < kMost) numbers.push_back(i);
+  }
+  return numbers;
+}
+
+/// Moves the tag to its likeliest position with the pose error that the other tags determine.
+void place_by_others(WorldFit& fit, const MultipathOptions& options, std::size_t index,
+                     int threads) {
+  constexpr double kNothing = 1e-6;
+  constexpr double kFurther = 5.0;  // Standard deviations.
+  JointState& state = fit.state;
+  JointTag& tag = state.system.tags[index];
+  tag.weight = kNothing;
+  minimize(state.system, kMaxRoundsOfJointFit, threads);
+  const Sight sight = sight_of(state, *fit.given[index]);
+  const Vector3d there =
+      likeliest_position(search_for(state, sight, options), fit.starts[index], kFurther);
+  tag.fit.unknowns = to_unknowns(tag.height, there);
+  tag.weight = 1.0;
+}
+
+/// A tag at a wrong position and a pose error that is bent to suit it can explain each other so
+/// well that no step leads away from them: doubtful tags are placed anew by the pose error of the
+/// others, where all reads then cost clearly less.
+void place_doubtful_anew(WorldFit& fit, const MultipathOptions& options, LastRound& last,
+                         int threads) {
+  constexpr double kClearly = 6.0;  // Minimum decrease of the cost.
+  constexpr int kRounds = 4;
+  if (fit.given.size() < 2) return;
+  for (const std::size_t index : doubtful_tags(fit, options, threads)) {
+    const Solution before = solution_of(fit.state, last);
+    const double cost = cost_at(fit, options, before.noise_rad, threads);
+    place_by_others(fit, options, index, threads);
+    for (int round = 0; round < kRounds; ++round) {
+      last = fit_once(fit, options, false, threads);
+      if (has_settled(fit.state, last)) break;
+    }
+    if (cost_at(fit, options, before.noise_rad, threads) < cost - kClearly) continue;
+    return_to(before, fit, options, threads);
+    last.straightened = last.fitted = places_of(fit.state);
+  }
+}
+
+/// Updates the bends, slopes and offsets of all tags, which belong to where they were before the
+/// last fit, and the weights of those that have moved since to where only noise remains.
 void come_to_rest(WorldFit& fit, const std::vector<Vector3d>& fitted,
                   const MultipathOptions& options, int threads) {
   JointState& state = fit.state;
   const std::vector<Vector3d> places = places_of(state);
-  if (farthest_move(fitted, places) == 0.0) return;
   straighten_all(fit, options, threads);
   parallel_for(places.size(), threads, [&](std::size_t i) {
     JointTag& tag = state.system.tags[i];
@@ -194,16 +322,11 @@ void come_to_rest(WorldFit& fit, const std::vector<Vector3d>& fitted,
 }  // namespace
 
 void fit_through_world(WorldFit& fit, const MultipathOptions& options, int threads) {
-  constexpr double kSettled = 3e-4;  // [m]
   JointState& state = fit.state;
-  std::vector<Vector3d> fitted = places_of(state);
+  LastRound last{places_of(state), places_of(state)};
   for (int round = 0; round < options.rounds; ++round) {
-    const std::vector<Vector3d> before = places_of(state);
     tell(*state.problem, "the known world", static_cast<double>(round) / options.rounds);
-    straighten_all(fit, options, threads);
-    fit_unwrapped_jointly(state, threads);
-    fitted = places_of(state);
-    climb_all(fit, before, options, round > 2, threads);
+    last = fit_once(fit, options, round > 2, threads);
     if (round == 1 && !state.problem->pose_error) learn_pose_error(state, threads);
     if (round == 2) {
       // No tag's reads fit this world: it is a different one, or the reads are not what they seem.
@@ -211,11 +334,14 @@ void fit_through_world(WorldFit& fit, const MultipathOptions& options, int threa
       find_lost(fit, options, Reach::kFurther, threads);
     } else if (round == 4 && is_right_world(fit_weights(state, threads))) {
       find_lost(fit, options, Reach::kAnywhere, threads);
-    } else if (round > 1 && farthest_move(before, places_of(state)) < kSettled) {
+    } else if (round > 1 && has_settled(state, last)) {
       break;
     }
   }
-  come_to_rest(fit, fitted, options, threads);
+  if (is_right_world(fit_weights(state, threads))) {
+    place_doubtful_anew(fit, options, last, threads);
+  }
+  come_to_rest(fit, last.fitted, options, threads);
 }
 
 std::vector<double> fit_weights(const JointState& state, int threads) {
