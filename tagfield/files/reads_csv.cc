@@ -24,11 +24,12 @@ struct ReadColumns {
 /// Refuses a table from another source as a whole, as all of its columns would have to be renamed.
 void require_own_format(const CsvTable& table) {
   if (table.has_column("stamp_s") || table.has_column("tag")) return;
+  std::string own = reads_header(false);
+  own.pop_back();  // The end of the line.
   fail({table.file, 1},
-       fmt::format("not in Tagfield's own format (stamp_s,reader,antenna,tag,frequency_hz,"
-                   "phase_rad,rssi_dbm), as its columns are {}; localize, track and calibrate read "
-                   "other formats by --format (docs/datasets.md)",
-                   fmt::join(table.header, ",")));
+       fmt::format("not in Tagfield's own format ({}), as its columns are {}; localize, track and "
+                   "calibrate read other formats by --format (docs/datasets.md)",
+                   own, fmt::join(table.header, ",")));
 }
 
 ReadColumns columns_of(const CsvTable& table) {

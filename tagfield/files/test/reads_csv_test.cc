@@ -102,7 +102,7 @@ TEST(ReadReadsCsv, NamesColumnAndLineOfBadInput) {
   EXPECT_TRUE(contains(error_of([] { reads_of("stamp_s,antenna\n1,a\n"); }), "no column 'tag'"));
 }
 
-TEST(ReadsCsv, RefusesATableFromAnotherSourceAsAWhole) {
+TEST(ReadReadsCsv, RefusesATableFromAnotherSourceAsAWhole) {
   EXPECT_TRUE(contains(error_of([] { reads_of("EPC,Timestamp,RSSI\na,1,-60\n"); }),
                        "r.csv:1: not in Tagfield's own format (stamp_s,reader,antenna,tag,"
                        "frequency_hz,phase_rad,rssi_dbm), as its columns are EPC,Timestamp,RSSI;"));

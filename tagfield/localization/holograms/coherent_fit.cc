@@ -271,15 +271,15 @@ double fitted_away(const TagPhases& phases, const Eigen::ArrayXd& errors) {
          std::min(1.0, (correlation_factor(phases.spans, errors) - 1.0) / (kSlowErrors - 1.0));
 }
 
-/// Ratio of the error of a sum of phasors to the linear one. Normal phase errors with covariances
-/// c_ij scatter the sum's slope by e^(−c) sinh c_ij and reduce its curvature by e^(−c/2), so each
-/// c_ij counts as sinh c_ij: at most c's own ratio, sinh(c)/c, c being the variance of the phase
-/// that the stated pose error causes.
+/// Ratio of the standard error of a sum of phasors to the linearized one. Normal phase errors with
+/// covariances c_ij scatter the sum's slope by e^(−c) sinh c_ij and reduce its curvature by
+/// e^(−c/2), so each c_ij counts as sinh c_ij. That is at most sinh(c)/c times as much, c being the
+/// variance of the phase that the stated pose error causes; this bound is used for all pairs.
 double by_phasors(const TagPhases& phases) {
   if (!phases.pose_error) return 1.0;
-  constexpr double kFullCircle = 10.0;  // [rad²]; beyond, no sum remains.
+  constexpr double kMost = 10.0;  // [rad²]; beyond, no sum remains.
   const double sigma_m = phases.pose_error->sigma_m;
-  const double c = std::min(sigma_m * sigma_m * phases.wavenumber.square().mean(), kFullCircle);
+  const double c = std::min(sigma_m * sigma_m * phases.wavenumber.square().mean(), kMost);
   return c > 0.0 ? std::sqrt(std::sinh(c) / c) : 1.0;
 }
 

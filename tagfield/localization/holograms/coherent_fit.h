@@ -27,7 +27,8 @@ double coherence(const TagPhases& phases, const std::vector<Aperture>& parts,
 PositionVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
                      const HeightModel& height, const PositionVector& start);
 
-/// The position with its covariance (fit_candidates.h).
+/// The position with its covariance (fit_candidates.h), larger where a stated pose error turns
+/// phases by a radian.
 Candidate candidate_at(const TagPhases& phases, const HeightModel& height,
                        const PositionVector& place);
 

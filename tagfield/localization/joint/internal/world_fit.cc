@@ -16,6 +16,11 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Search radius around the starts of tags that don't fit [standard deviations].
+constexpr double kFurther = 5.0;
+/// Minimum decrease of a cost for which a tag moves elsewhere.
+constexpr double kClearly = 6.0;
+
 Sight sight_of(const JointState& state, const SamplesOfTag& samples) {
   return {samples, corrected_samples(*state.problem, state.system.knots, state.system.u, samples)};
 }
@@ -124,7 +129,6 @@ Fit fit_of(const WorldFit& fit, const MultipathOptions& options, std::size_t ind
 
 /// Searches again for tags that do not fit, now that others determine the pose error.
 void find_lost(WorldFit& fit, const MultipathOptions& options, Reach reach, int threads) {
-  constexpr double kFurther = 5.0;  // Standard deviations.
   JointState& state = fit.state;
   parallel_for(fit.given.size(), threads, [&](std::size_t i) {
     JointTag& tag = state.system.tags[i];
@@ -146,9 +150,8 @@ void find_lost(WorldFit& fit, const MultipathOptions& options, Reach reach, int 
 /// once.
 void climb_all(WorldFit& fit, const std::vector<Vector3d>& before, const MultipathOptions& options,
                bool is_late, int threads) {
-  constexpr double kAbout = 0.3;    // [m]
-  constexpr double kClearly = 6.0;  // Minimum decrease of the cost.
-  constexpr double kFar = 0.01;     // [m]
+  constexpr double kAbout = 0.3;  // [m]
+  constexpr double kFar = 0.01;   // [m]
   JointState& state = fit.state;
   parallel_for(fit.given.size(), threads, [&](std::size_t i) {
     JointTag& tag = state.system.tags[i];
@@ -217,7 +220,7 @@ Solution solution_of(const JointState& state, const LastRound& last) {
   return solution;
 }
 
-/// The bends, slopes and offsets are those of the solution's end, not of its last round.
+/// Afterwards, the bends, slopes and offsets belong to the solution's positions.
 void return_to(const Solution& solution, WorldFit& fit, const MultipathOptions& options,
                int threads) {
   JointSystem& system = fit.state.system;
@@ -232,12 +235,12 @@ void return_to(const Solution& solution, WorldFit& fit, const MultipathOptions& 
 
 /// −2 ln of the likelihood of all reads and of the pose error, up to a constant, for comparison at
 /// equal noise.
-double cost_at(const WorldFit& fit, const MultipathOptions& options, double noise_rad,
-               int threads) {
-  WorldFit same_noise = fit;
-  same_noise.state.system.noise_rad = noise_rad;
-  double cost = prior_cost(same_noise.state.system);
-  for (const Fit& of_tag : fits_of(same_noise, options, threads)) cost += of_tag.cost;
+double cost_at(WorldFit& fit, const MultipathOptions& options, double noise_rad, int threads) {
+  JointSystem& system = fit.state.system;
+  const double own_noise_rad = std::exchange(system.noise_rad, noise_rad);
+  double cost = prior_cost(system);
+  for (const Fit& of_tag : fits_of(fit, options, threads)) cost += of_tag.cost;
+  system.noise_rad = own_noise_rad;
   return cost;
 }
 
@@ -271,7 +274,6 @@ std::vector<std::size_t> doubtful_tags(WorldFit& fit, const MultipathOptions& op
 void place_by_others(WorldFit& fit, const MultipathOptions& options, std::size_t index,
                      int threads) {
   constexpr double kNothing = 1e-6;
-  constexpr double kFurther = 5.0;  // Standard deviations.
   JointState& state = fit.state;
   JointTag& tag = state.system.tags[index];
   tag.weight = kNothing;
@@ -288,7 +290,6 @@ void place_by_others(WorldFit& fit, const MultipathOptions& options, std::size_t
 /// others, where all reads then cost clearly less.
 void place_doubtful_anew(WorldFit& fit, const MultipathOptions& options, LastRound& last,
                          int threads) {
-  constexpr double kClearly = 6.0;  // Minimum decrease of the cost.
   constexpr int kRounds = 4;
   if (fit.given.size() < 2) return;
   for (const std::size_t index : doubtful_tags(fit, options, threads)) {
@@ -301,7 +302,7 @@ void place_doubtful_anew(WorldFit& fit, const MultipathOptions& options, LastRou
     }
     if (cost_at(fit, options, before.noise_rad, threads) < cost - kClearly) continue;
     return_to(before, fit, options, threads);
-    last.straightened = last.fitted = places_of(fit.state);
+    last = before.last;
   }
 }
 
