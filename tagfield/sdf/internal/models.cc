@@ -9,6 +9,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "tagfield/sdf/internal/common_models.h"
+
 namespace tagfield::sdf_internal {
 namespace {
 
@@ -179,23 +181,28 @@ class ModelReader {
       context_.diagnostics.warn(location_of(include), "<include> without <uri>: left out");
       return nullptr;
     }
-    const std::string place = file_named_by(context_, *uri);
+    const XMLElement* const model = included_model(*uri);
+    if (model == nullptr) return nullptr;
+    std::unique_ptr<Model> read = this->model(*model, &include);
+    open_.erase(file_of(*model).path);
+    return read;
+  }
+
+  /// The <model> that a <uri> names; null for lights, actors and what is missing.
+  const XMLElement* included_model(const XMLElement& uri) {
+    if (lacks_common_model(context_, uri)) return common_model(context_, uri);
+    const std::string place = file_named_by(context_, uri);
     if (place.empty()) return nullptr;
     const std::string path = model_file(place);
     if (path.empty()) {
-      miss(context_, *uri,
+      miss(context_, uri,
            fmt::format("no model file in '{}' (expected model.config or model.sdf there)", place));
       return nullptr;
     }
     if (open_.count(path) > 0) {
-      fail(location_of(*uri), fmt::format("'{}' includes itself", text_of(*uri)));
+      fail(location_of(uri), fmt::format("'{}' includes itself", text_of(uri)));
     }
-    const XMLElement* model = root_of(context_, path, path).FirstChildElement("model");
-    // A light or an actor.
-    if (model == nullptr) return nullptr;
-    std::unique_ptr<Model> read = this->model(*model, &include);
-    open_.erase(path);
-    return read;
+    return root_of(context_, path, path).FirstChildElement("model");
   }
 
   /// Moves its parts into `into`; parts relative to its model frame become relative to a new frame

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "tagfield/base/number.h"
 #include "tagfield/base/units.h"
@@ -115,6 +116,10 @@ void parse_xml(XmlFile& file) {
     if (message.rfind(file.path, 0) == 0) message.replace(0, file.path.size(), file.shown);
     throw Error(message);
   }
+  parse_xml(file, std::move(text));
+}
+
+void parse_xml(XmlFile& file, std::string text) {
   blank_out_declarations(text);
   file.document.SetUserData(&file);
   if (parse(file, text)) return;

@@ -25,6 +25,9 @@ struct XmlFile {
 /// quotes, as in files that Gazebo accepts. Throws Error if it can't be read or is malformed.
 void parse_xml(XmlFile& file);
 
+/// Same for the given text.
+void parse_xml(XmlFile& file, std::string text);
+
 /// The file that `element` is in.
 const XmlFile& file_of(const tinyxml2::XMLElement& element);
 

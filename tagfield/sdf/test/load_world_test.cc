@@ -2,6 +2,7 @@
 #include "tagfield/sdf/load_world.h"
 
 #include <Eigen/Geometry>
+#include <filesystem>
 
 #include "tagfield/sdf/test/world_test.h"
 
@@ -298,6 +299,59 @@ TEST_F(LoadWorld, WhatIsMissingCanBeSkipped) {
   ASSERT_EQ(warnings().size(), 2U);
   EXPECT_EQ(warnings()[0], path + ":3: can't find 'model://nosuch': left out");
   EXPECT_NE(warnings()[1].find("broken.obj"), std::string::npos);
+}
+
+/// Gazebo's model, as installed with Gazebo 11, without its looks and friction.
+constexpr const char* kGroundPlane =
+    "<static>true</static><link name='link'><collision name='collision'><geometry><plane><normal>0 "
+    "0 1</normal><size>100 100</size></plane></geometry></collision></link>";
+
+/// Worlds that include them load the same where Gazebo is installed and where it is not.
+TEST_F(LoadWorld, GroundPlaneAndSunNeedNoGazebo) {
+  const std::string includes =
+      "<include><uri>model://sun</uri></include>\n"
+      "<include><uri>model://ground_plane</uri></include>\n"
+      "<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane</uri>"
+      "<name>deck</name><pose>1 2 3 0 0 0</pose></include>\n";
+  const Scene without = load(includes);
+  const std::vector<std::string> warned = warnings();
+  write_model("ground_plane", kGroundPlane);
+  write("models/sun/model.sdf", "<sdf version='1.6'><light type='directional' name='sun'/></sdf>");
+  const Scene with = load(includes);
+
+  EXPECT_EQ(without.models, (std::vector<std::string>{"ground_plane", "deck"}));
+  EXPECT_EQ(without.models, with.models);
+  ASSERT_EQ(without.collisions.size(), with.collisions.size());
+  for (std::size_t i = 0; i < with.collisions.size(); ++i) {
+    EXPECT_EQ(without.collisions[i].name, with.collisions[i].name);
+    EXPECT_EQ(without.collisions[i].X_WC.translation, with.collisions[i].X_WC.translation);
+    EXPECT_EQ(std::get<Plane>(without.collisions[i].shape).size,
+              std::get<Plane>(with.collisions[i].shape).size);
+  }
+  if (std::filesystem::exists("/usr/share/gazebo-11/models/ground_plane")) return;
+  ASSERT_EQ(warned.size(), 3U);
+  EXPECT_EQ(warned[0], path_of("world.sdf") +
+                           ":3: can't find 'model://sun': taken as a light, which changes nothing "
+                           "here");
+  EXPECT_EQ(warned[1], path_of("world.sdf") +
+                           ":4: can't find 'model://ground_plane': a plane of 100 m x 100 m at "
+                           "z = 0 is used, as in Gazebo's model");
+}
+
+TEST_F(LoadWorld, OtherModelsOfTheirNamesAreReadOrMissed) {
+  write_model("ground_plane", "<link name='l'/>");
+  EXPECT_TRUE(load("<include><uri>model://ground_plane</uri></include>").collisions.empty());
+  for (const std::string& uri :
+       std::vector<std::string>{"file:///nosuch/sun", "model://nosuch/sun",
+                                "https://fuel.gazebosim.org/1.0/nosuch/models/Sun"}) {
+    EXPECT_NE(error_of("<include><uri>" + uri + "</uri></include>").find("can't find"),
+              std::string::npos)
+        << uri;
+  }
+  const std::string path =
+      write("a/deep/world.sdf",
+            world("<include><uri>file://" + path_of("models/ground_plane") + "</uri></include>"));
+  EXPECT_NE(error_of_file(path).find("lies outside"), std::string::npos);
 }
 
 TEST_F(LoadWorld, IncludesOfNothingAreLeftOutWithAWarning) {
