@@ -21,37 +21,6 @@ namespace {
 
 using namespace made;
 
-Eigen::Vector3d mirrored(Eigen::Vector3d v, const Mirror& mirror, double at) {
-  v[mirror.axis] = 2.0 * at - v[mirror.axis];
-  return v;
-}
-
-std::vector<TracedReply> replies_of(const std::vector<Mirror>& mirrors, const Eigen::Vector3d& p_WT,
-                                    const TracedFrom& from) {
-  std::vector<TracedReply> replies;
-  for (const RigidTransform& X : from.X_WA) {
-    TracedReply reply;
-    reply.forward.push_back({X.translation, 1.0, (p_WT - X.translation).normalized(), true});
-    for (const Mirror& mirror : mirrors) {
-      const Eigen::Vector3d image = mirrored(X.translation, mirror, mirror.at);
-      const Eigen::Vector3d arrival = (p_WT - image).normalized();
-      reply.forward.push_back({image, -mirror.gain, mirrored(arrival, mirror, 0.0), false});
-    }
-    replies.push_back(std::move(reply));
-  }
-  return replies;
-}
-
-/// The mirrors of `reflect()` as a known world.
-TraceReplies known(const std::vector<Mirror>& mirrors) {
-  return [mirrors](const std::string& /*tag*/, const Eigen::Vector3d& p_WT,
-                   const std::map<std::string, TracedFrom>& antennas) {
-    TracedReplies all;
-    for (const auto& [antenna, from] : antennas) all[antenna] = replies_of(mirrors, p_WT, from);
-    return all;
-  };
-}
-
 struct TracedStudy {
   double pose_m = 0.0;
   double gain = 0.5;           ///< Reflection coefficient of the walls.
@@ -105,7 +74,7 @@ Hall hall_of(const TracedStudy& study, unsigned seed) {
   if (study.pose_error_stated) hall.problem.pose_error = PoseErrorModel{study.pose_m, 0.0, 5.0};
   hall.problem.pi_ambiguity = study.pi_ambiguity;
   if (study.pi_ambiguity) double_phases(hall.problem.samples);
-  hall.problem.trace = known(moved(walls(study.believed_gain), study.walls_off_m));
+  hall.problem.trace = known_mirrors(moved(walls(study.believed_gain), study.walls_off_m));
   hall.problem.world_sigma_m = study.world_sigma_m;
   return hall;
 }

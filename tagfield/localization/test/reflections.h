@@ -5,7 +5,9 @@
 #pragma once
 
 #include <complex>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tagfield/localization/test/problem_of.h"
@@ -45,6 +47,37 @@ inline void reflect(const std::vector<Mirror>& mirrors, Hall& hall) {
   for (auto& [tag, samples] : hall.problem.samples) {
     for (auto& [antenna, series] : samples) reflect(mirrors, hall.truth.at(tag), series);
   }
+}
+
+inline Eigen::Vector3d mirrored(Eigen::Vector3d v, const Mirror& mirror, double at) {
+  v[mirror.axis] = 2.0 * at - v[mirror.axis];
+  return v;
+}
+
+inline std::vector<TracedReply> replies_of(const std::vector<Mirror>& mirrors,
+                                           const Eigen::Vector3d& p_WT, const TracedFrom& from) {
+  std::vector<TracedReply> replies;
+  for (const RigidTransform& X : from.X_WA) {
+    TracedReply reply;
+    reply.forward.push_back({X.translation, 1.0, (p_WT - X.translation).normalized(), true});
+    for (const Mirror& mirror : mirrors) {
+      const Eigen::Vector3d image = mirrored(X.translation, mirror, mirror.at);
+      const Eigen::Vector3d arrival = (p_WT - image).normalized();
+      reply.forward.push_back({image, -mirror.gain, mirrored(arrival, mirror, 0.0), false});
+    }
+    replies.push_back(std::move(reply));
+  }
+  return replies;
+}
+
+/// The mirrors as a known world.
+inline TraceReplies known_mirrors(const std::vector<Mirror>& mirrors) {
+  return [mirrors](const std::string& /*tag*/, const Eigen::Vector3d& p_WT,
+                   const std::map<std::string, TracedFrom>& antennas) {
+    TracedReplies all;
+    for (const auto& [antenna, from] : antennas) all[antenna] = replies_of(mirrors, p_WT, from);
+    return all;
+  };
 }
 
 }  // namespace tagfield::made
