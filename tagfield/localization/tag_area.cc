@@ -95,7 +95,7 @@ void keep_within(const TagArea& area, const PathLine& way, double max_error_m,
   if (candidates.empty() || candidates.front().expected_error_m > max_error_m) {
     candidates.clear();
     estimate.verdict = Verdict::kNotLocated;
-    estimate.reason = "cannot localize: no position explains the phase where tags can be";
+    estimate.reason = "cannot localize: no position where tags can be explains the reads";
   } else if (candidates.size() == 1) {
     estimate.verdict = Verdict::kLocated;
     estimate.reason.clear();

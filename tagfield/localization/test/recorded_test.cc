@@ -124,8 +124,8 @@ std::vector<Kind> kinds() {
                    survey.known.trace = known_mirrors(walls(0.5));
                    survey.known.world_sigma_m = 0.005;
                  }});
-  all.push_back({"straight", {.path = straight(9.0, 0.05, 0.4)}});
-  all.push_back({"straight_left", {.path = straight(9.0, 0.05, 0.4)}, [](Survey& survey) {
+  all.push_back({"straight", {.path = straight(7.0, 0.035, 0.4)}});
+  all.push_back({"straight_left", {.path = straight(7.0, 0.035, 0.4)}, [](Survey& survey) {
                    survey.known.area.side = TagSide::kLeft;
                    survey.known.area.box =
                        Eigen::AlignedBox2d(Eigen::Vector2d(-1.0, -1.0), Eigen::Vector2d(6.0, 6.0));
@@ -193,6 +193,18 @@ std::string text_of(const LocalizationResult& result, const Diagnostics& diagnos
   return text;
 }
 
+/// No position may be listed twice, as if it were two.
+void expect_distinct(const LocalizationResult& result) {
+  for (const TagEstimate& estimate : result.estimates) {
+    for (const Candidate& one : estimate.candidates) {
+      for (const Candidate& other : estimate.candidates) {
+        if (&one == &other) continue;
+        EXPECT_GT((one.p_WT - other.p_WT).norm(), 1e-3) << result.method << ' ' << estimate.tag;
+      }
+    }
+  }
+}
+
 /// With the believed poses as true ones.
 std::string bounds_of(const Survey& survey) {
   BoundInput input;
@@ -224,6 +236,7 @@ std::string results_of(const Kind& kind) {
     options.known = survey.known;
     Diagnostics diagnostics;
     const LocalizationResult result = locate_tags(survey.reads, survey.poses, options, diagnostics);
+    expect_distinct(result);
     text += method.name + '\n' + text_of(result, diagnostics);
   }
   return text;

@@ -53,6 +53,15 @@ bool is_elsewhere(const Candidate& candidate, const Eigen::Vector3d& p_WT) {
   return (candidate.p_WT - p_WT).head<2>().norm() > kSame;
 }
 
+/// Adds a candidate in place of any nearby, whose covariance lacks the pose error.
+void put(const Candidate& candidate, std::vector<Candidate>& others) {
+  others.erase(
+      std::remove_if(others.begin(), others.end(),
+                     [&](const Candidate& other) { return !is_elsewhere(other, candidate.p_WT); }),
+      others.end());
+  others.push_back(candidate);
+}
+
 /// Mirrors all tags and fits again: the mirror image of the pose error is equally likely.
 void add_mirrored(JointState& state, int threads) {
   constexpr double kClearlyWorse = 25.0;
@@ -73,7 +82,7 @@ void add_mirrored(JointState& state, int threads) {
     const JointTag& tag = state.system.tags[i];
     const Candidate candidate = candidate_of(mirrored, i, covariance.of_tag[i]);
     if (is_elsewhere(candidate, to_position(tag.height, tag.fit.unknowns))) {
-      state.alternatives[i].push_back(candidate);
+      put(candidate, state.alternatives[i]);
     }
   }
 }
