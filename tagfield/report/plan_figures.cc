@@ -161,7 +161,7 @@ Figure level_figure(const AntennaPlan& plan, const Level& level, std::size_t num
   figure.caption = fmt::format(
       "{} from above; antennas as squares, one colour per reader, with their direction (a disc: "
       "down or up).",
-      counted(level.places.size(), "place"));
+      counted(level.places.size(), "position"));
   if (step > 1) figure.caption += fmt::format(" One in {} is drawn.", step);
   return figure;
 }

@@ -338,7 +338,7 @@ std::string plan_facts(const AntennaPlan& plan) {
          plan_fact("Limits", plan.limits) + plan_fact("More is prevented by", plan.stopped_by) +
          plan_fact("Choice",
                    fmt::format("of {} ways to mount an antenna, for {}", grouped(plan.options),
-                               counted(plan.places.size(), "place"))) +
+                               counted(plan.places.size(), "position"))) +
          plan_fact("Greedy choice guarantees", guaranteed) + "</dl>\n";
 }
 

@@ -56,11 +56,13 @@ struct Survey {
   std::map<std::string, double> offsets_rad;  ///< By antenna; those of channels add to them.
 };
 
-/// Heading of a path at point i [rad].
+/// Heading of a path at point i [rad]: of the next step, or of the last one at the end.
 inline double heading_at(const Path& path, std::size_t i) {
-  const Eigen::Vector3d& from = path[i == 0 ? 0 : i - 1];
-  const Eigen::Vector3d way = path[std::min(i + 1, path.size() - 1)] - from;
-  return way.head<2>().norm() > 0.0 ? std::atan2(way.y(), way.x()) : 0.0;
+  const auto step = [&](std::size_t from) { return path[from + 1] - path[from]; };
+  std::size_t from = i;
+  while (from + 1 < path.size() && step(from).norm() == 0.0) ++from;
+  if (from + 1 >= path.size()) from = path.size() - 2;
+  return std::atan2(step(from).y(), step(from).x());
 }
 
 inline RigidTransform pose_of(const MountedAntenna& antenna, const Path& path, std::size_t i,
@@ -114,6 +116,15 @@ struct SurveyTag {
   Eigen::Vector3d axis_W;
 };
 
+/// The path without the steps in which it stands still, at which nothing is beside it.
+inline Path moving_part(const Path& path) {
+  Path moving;
+  for (const Eigen::Vector3d& p : path) {
+    if (moving.empty() || (p - moving.back()).norm() > 0.0) moving.push_back(p);
+  }
+  return moving;
+}
+
 /// Makes the rows of a survey, step by step.
 class SurveyMaker {
  public:
@@ -143,10 +154,11 @@ class SurveyMaker {
 
  private:
   void place_tags() {
+    const Path way = moving_part(plan_.path);
     for (int t = 0; t < plan_.tags; ++t) {
       const double z = uniform(rng_, plan_.lowest_m, plan_.highest_m);
       const double away = uniform(rng_, plan_.nearest_m, plan_.farthest_m);
-      const Eigen::Vector3d p_WT = beside(plan_.path, away, z, rng_);
+      const Eigen::Vector3d p_WT = beside(way, away, z, rng_);
       const double lean = uniform(rng_, -1.2, 1.2);
       const double bearing = uniform(rng_, 0.0, kTwoPi);
       const Eigen::Vector3d axis_W(std::sin(lean) * std::cos(bearing),
