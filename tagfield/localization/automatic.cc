@@ -150,8 +150,7 @@ LocalizationProblem without_outliers(const LocalizationProblem& given, int threa
   const double share =
       static_cast<double>(std::accumulate(removed.begin(), removed.end(), std::size_t{0})) /
       static_cast<double>(std::max<std::size_t>(all, 1));
-  diagnostics.warn(
-      fmt::format("{:.1f} % of the phases are outliers and are left out", 100.0 * share));
+  warn_of_outliers(share, diagnostics);
   return cleaned;
 }
 

@@ -136,7 +136,10 @@ double noise_of_differences(std::vector<double> differences) {
 
 Eigen::Matrix3d honest_covariance(const TagPhases& phases, const HeightModel& height,
                                   const TagFit& fit) {
-  if (!phases.pose_error) return covariance_of(phases, height, fit);
+  if (!phases.pose_error) {
+    const double factor = fitted_away(phases.spans, residuals_of(phases, height, fit));
+    return factor * factor * covariance_of(phases, height, fit);
+  }
   const Eigen::Matrix3d normal = normal_of(phases, height, fit.unknowns);
   const auto inverse = inverse_of(normal);
   if (!inverse) return covariance_of(phases, height, fit);

@@ -22,7 +22,7 @@ Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height
 /// N⁻¹(σφ²N + S)N⁻¹, with the phase noise σφ from differences of neighbouring residuals (from all
 /// residuals if none are neighbours), and S the covariance that the Ornstein-Uhlenbeck error of the
 /// antenna's position adds to the right-hand side of the normal equations. Otherwise
-/// covariance_of().
+/// covariance_of() times the square of fitted_away().
 Eigen::Matrix3d honest_covariance(const TagPhases& phases, const HeightModel& height,
                                   const TagFit& fit);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tagfield/localization/aim.h"
 #include "tagfield/localization/at_rest.h"
@@ -19,7 +20,10 @@
 #include "tagfield/localization/interleaved_tags.h"
 #include "tagfield/localization/joint/joint.h"
 #include "tagfield/localization/joint/multipath.h"
+#include "tagfield/localization/judgement.h"
 #include "tagfield/localization/map_error.h"
+#include "tagfield/localization/mirror_rivals.h"
+#include "tagfield/localization/outliers.h"
 #include "tagfield/localization/phase_curves/hyperbola.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
 #include "tagfield/localization/phase_curves/maximum_likelihood.h"
@@ -38,6 +42,47 @@ PathLine way_of(const SamplesOfTag& samples) {
     for (const PhaseSample& sample : series) places.emplace_back(sample.p_WA.head<2>());
   }
   return path_line(places);
+}
+
+/// Whether a position with an estimated height is on the other side of all antennas than `side`, by
+/// more than three times its vertical error.
+bool is_on_wrong_side(HeightSide side, const SamplesOfTag& samples, const Candidate& candidate) {
+  constexpr double kDeviations = 3.0;
+  constexpr double kLevel = 0.01;  // [m]
+  const double variance = candidate.covariance ? (*candidate.covariance)(2, 2) : 0.0;
+  const double slack = kLevel + kDeviations * std::sqrt(std::max(variance, 0.0));
+  const double up = side == HeightSide::kAbove ? 1.0 : -1.0;
+  return std::all_of(samples.begin(), samples.end(), [&](const auto& of_antenna) {
+    const std::vector<PhaseSample>& series = of_antenna.second;
+    return std::all_of(series.begin(), series.end(), [&](const PhaseSample& sample) {
+      return up * (candidate.p_WT.z() - sample.p_WA.z()) < -slack;
+    });
+  });
+}
+
+/// Removes positions on the other side of the antennas than the one on which heights are estimated:
+/// where antennas are at several heights, a fit can end there.
+void keep_on_side(const LocalizationProblem& problem, std::vector<TagEstimate>& estimates) {
+  for (TagEstimate& estimate : estimates) {
+    const auto side = side_to_estimate(problem, estimate.tag);
+    const auto samples = problem.samples.find(estimate.tag);
+    if (!side || samples == problem.samples.end() || estimate.candidates.empty()) continue;
+    if (problem.reference_tags.count(estimate.tag) > 0) continue;
+    const std::size_t before = estimate.candidates.size();
+    const auto wrong = std::remove_if(estimate.candidates.begin(), estimate.candidates.end(),
+                                      [&](const Candidate& candidate) {
+                                        return is_on_wrong_side(*side, samples->second, candidate);
+                                      });
+    estimate.candidates.erase(wrong, estimate.candidates.end());
+    if (estimate.candidates.size() == before) continue;
+    if (estimate.candidates.empty()) {
+      estimate = not_located(std::move(estimate),
+                             fmt::format("no position {} the antennas explains the reads",
+                                         *side == HeightSide::kAbove ? "above" : "below"));
+    } else {
+      judge(problem.limits, estimate);
+    }
+  }
 }
 
 void keep_within_area(const LocalizationProblem& problem, std::vector<TagEstimate>& estimates) {
@@ -84,12 +129,29 @@ LocalizationProblem less_explained(const LocalizationProblem& problem,
   return less;
 }
 
+/// Whether a method unwraps phases from read to read.
+bool unwraps(const std::string& method) {
+  return method == "hyperbola" || method == "least_squares" || method == "ml" || method == "joint";
+}
+
+/// The method's result. Arbitrary phases are left out where they would shift others by whole
+/// cycles; positions are checked against all reads.
+LocalizationResult located_by(const Method& method, const LocalizationProblem& problem, int threads,
+                              Diagnostics& diagnostics) {
+  if (unwraps(method.name) && problem.has_phases) {
+    const auto cleaned = without_stray_phases(problem, threads, diagnostics);
+    if (cleaned) return method.locate(*cleaned, threads, diagnostics);
+  }
+  return method.locate(problem, threads, diagnostics);
+}
+
 /// Refuses what no method may claim.
 LocalizationResult held_against(const LocalizationProblem& problem, LocalizationResult result,
                                 int threads, Diagnostics& diagnostics) {
   if (is_by_phase(result.method) && !problem.has_phases) {
     refuse_without_phases(problem, result);
   } else if (is_by_phase(result.method)) {
+    if (result.method != "multipath") add_mirror_images(problem, threads, result);
     drop_candidates_behind(problem, result);
     refuse_chance(problem, result);
     refuse_mixtures(problem, result);
@@ -105,6 +167,7 @@ LocalizationResult held_against(const LocalizationProblem& problem, Localization
   if (problem.has_phases) refuse_interleaved_tags(problem, result);
   if (problem.has_phases) refuse_departures(problem, threads, result, diagnostics);
   add_map_error(problem, result);
+  keep_on_side(problem, result.estimates);
   keep_within_area(problem, result.estimates);
   return result;
 }
@@ -116,6 +179,22 @@ LocalizationResult checked(const LocalizationProblem& problem, LocalizationResul
   }
   const LocalizationProblem less = less_explained(problem, result);
   return held_against(less, std::move(result), threads, diagnostics);
+}
+
+/// With limits under which tags are located though rotations of the phase leave residuals that, as
+/// slow errors, double the expected error.
+LocalizationProblem lenient(LocalizationProblem problem) {
+  problem.limits.max_expected_error_m *= 2.0;
+  return problem;
+}
+
+/// Applies the problem's limits to positions by phase; those by RSSI have others.
+void judge_again(const LocalizationProblem& problem, LocalizationResult& result) {
+  if (!is_by_phase(result.method)) return;
+  for (TagEstimate& estimate : result.estimates) {
+    if (estimate.verdict != Verdict::kLocated) continue;
+    if (problem.reference_tags.count(estimate.tag) == 0) judge(problem.limits, estimate);
+  }
 }
 
 /// Whether a method estimates the pose error if none is stated.
@@ -149,12 +228,13 @@ void warn_of_unknown_pose_error(const LocalizationProblem& problem,
 LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,
                                   int threads, Diagnostics& diagnostics) {
   if (problem.circular.empty() || !problem.has_phases) {
-    return checked(problem, method.locate(problem, threads, diagnostics), threads, diagnostics);
+    return checked(problem, located_by(method, problem, threads, diagnostics), threads,
+                   diagnostics);
   }
   // A first position from the uncorrected phases is needed to estimate how the tags' wires rotate
   // them.
   Diagnostics of_first;
-  LocalizationResult result = method.locate(problem, threads, of_first);
+  LocalizationResult result = located_by(method, lenient(problem), threads, of_first);
   // Traced replies already include these rotations.
   const bool is_blind = is_by_phase(result.method) && result.explained.empty();
   const PolarizationAllowances allowances =
@@ -163,6 +243,7 @@ LocalizationResult locate_problem(const Method& method, const LocalizationProble
                                       [](const auto& of) { return of.second.samples.has_value(); });
   if (!any_turned) {
     for (const std::string& warning : of_first.warnings()) diagnostics.warn(warning);
+    judge_again(problem, result);
     add_polarization_error(allowances, problem.limits, result);
     return checked(problem, std::move(result), threads, diagnostics);
   }
@@ -170,7 +251,7 @@ LocalizationResult locate_problem(const Method& method, const LocalizationProble
   for (const auto& [tag, allowance] : allowances) {
     if (allowance.samples) turned.samples[tag] = *allowance.samples;
   }
-  result = method.locate(turned, threads, diagnostics);
+  result = located_by(method, turned, threads, diagnostics);
   add_polarization_error(allowances, problem.limits, result);
   return checked(turned, std::move(result), threads, diagnostics);
 }

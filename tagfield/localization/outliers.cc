@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/outliers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
+#include <utility>
 
+#include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
 #include "tagfield/fit/circular_mean.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/holograms/hologram.h"
 #include "tagfield/localization/judgement.h"
+#include "tagfield/localization/phase_curves/phase_following.h"
+#include "tagfield/localization/phase_noise.h"
 #include "tagfield/localization/residuals.h"
 #include "tagfield/localization/tag_fit.h"
 
@@ -51,6 +58,29 @@ PositionVector brightest_of(const TagPhases& phases, const HeightModel& height,
     most = std::max(most, light);
   }
   return best;
+}
+
+/// Removes arbitrary phases from one tag's samples and returns their number; none if they are more
+/// than a few, as of two tags under one ID.
+std::size_t remove_strays(SamplesOfTag& samples) {
+  SamplesOfTag kept = samples;
+  for (auto& [antenna, series] : kept) {
+    if (extent_of(series) < kStillExtent) continue;
+    const std::vector<PhaseSample> sorted = by_channel(series);
+    std::set<Time> stamps;
+    for (const std::size_t i : stray_samples(sorted, phase_noise(sorted))) {
+      stamps.insert(sorted[i].stamp);
+    }
+    series.erase(
+        std::remove_if(series.begin(), series.end(),
+                       [&](const PhaseSample& sample) { return stamps.count(sample.stamp) > 0; }),
+        series.end());
+  }
+  const std::size_t all = count_reads(samples);
+  const std::size_t removed = all - count_reads(kept);
+  if (static_cast<double>(removed) > kMaxOutliers * static_cast<double>(all)) return 0;
+  samples = std::move(kept);
+  return removed;
 }
 
 }  // namespace
@@ -137,6 +167,37 @@ std::size_t remove_outliers(const LocalizationProblem& problem, const std::strin
     series.erase(kept, series.end());
   }
   return removed;
+}
+
+std::optional<LocalizationProblem> without_stray_phases(const LocalizationProblem& problem,
+                                                        int threads, Diagnostics& diagnostics) {
+  std::vector<const SamplesByTag::value_type*> tags;
+  for (const auto& entry : problem.samples) tags.push_back(&entry);
+  std::vector<SamplesOfTag> cleaned(tags.size());
+  std::vector<std::size_t> removed(tags.size());
+  parallel_for(tags.size(), threads, [&](std::size_t i) {
+    cleaned[i] = tags[i]->second;
+    removed[i] = remove_strays(cleaned[i]);
+  });
+  const std::size_t all = std::accumulate(removed.begin(), removed.end(), std::size_t{0});
+  if (all == 0) return std::nullopt;
+  LocalizationProblem without = problem;
+  std::size_t reads = 0;
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    reads += count_reads(tags[i]->second);
+    without.samples[tags[i]->first] = std::move(cleaned[i]);
+  }
+  const double share = static_cast<double>(all) / static_cast<double>(reads);
+  // Close to a tag its direction changes faster than expected, at which a few reads in a thousand
+  // seem arbitrary.
+  constexpr double kNoticed = 0.01;
+  if (share > kNoticed) warn_of_outliers(share, diagnostics);
+  return without;
+}
+
+void warn_of_outliers(double share, Diagnostics& diagnostics) {
+  diagnostics.warn(
+      fmt::format("{:.1f} % of the phases are outliers and are left out", 100.0 * share));
 }
 
 }  // namespace tagfield

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "tagfield/localization/height_model.h"
 #include "tagfield/localization/problem.h"
@@ -42,5 +43,14 @@ bool has_outliers(const OutlierMixture& mixture);
 /// Removes the likely outliers from one tag's samples and returns their number.
 std::size_t remove_outliers(const LocalizationProblem& problem, const std::string& tag,
                             SamplesOfTag& samples);
+
+/// The problem without reads whose phase is arbitrary, recognized by following the phase from read
+/// to read (phase_following.h), with a warning of how many these are; nullopt if there are none.
+/// For methods that unwrap phases: one such read among few shifts the others by whole cycles.
+std::optional<LocalizationProblem> without_stray_phases(const LocalizationProblem& problem,
+                                                        int threads, Diagnostics& diagnostics);
+
+/// Warns that this share of the phases is left out.
+void warn_of_outliers(double share, Diagnostics& diagnostics);
 
 }  // namespace tagfield

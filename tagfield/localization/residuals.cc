@@ -40,6 +40,11 @@ double correlation_factor(const Spans& spans, const Eigen::ArrayXd& residuals) {
   return factor;
 }
 
+double fitted_away(const Spans& spans, const Eigen::ArrayXd& residuals) {
+  constexpr double kSlowErrors = 3.0;  // Reads per independent one, above which errors are slow.
+  return 1.0 + std::min(1.0, (correlation_factor(spans, residuals) - 1.0) / (kSlowErrors - 1.0));
+}
+
 double noise_of_one(const Spans& spans, const Eigen::ArrayXd& residuals) {
   double squares = 0.0;
   double count = 0.0;

@@ -36,6 +36,17 @@ constexpr Eigen::ArrayXd TagPhases::*kColumns[] = {&TagPhases::x,          &TagP
                                                    &TagPhases::z,          &TagPhases::value,
                                                    &TagPhases::wavenumber, &TagPhases::time_s};
 
+/// Principal axis of the antennas' positions: along the eigenvector of their scatter matrix with
+/// the larger eigenvalue.
+PathLine principal_axis(const TagPhases& phases) {
+  const Eigen::Vector2d middle(phases.x.mean(), phases.y.mean());
+  const Eigen::ArrayXd dx = phases.x - middle.x();
+  const Eigen::ArrayXd dy = phases.y - middle.y();
+  const double angle =
+      0.5 * std::atan2(2.0 * (dx * dy).sum(), dx.square().sum() - dy.square().sum());
+  return {middle, {std::cos(angle), std::sin(angle)}};
+}
+
 }  // namespace
 
 std::optional<PoseErrorModel> stated_pose_error(const LocalizationProblem& problem) {
@@ -78,17 +89,21 @@ double longest_cycle(const TagPhases& phases) {
   return longest;
 }
 
+Eigen::ArrayXd distances_from_line(const TagPhases& phases) {
+  const PathLine line = principal_axis(phases);
+  return line.along.x() * (phases.y - line.middle.y()) -
+         line.along.y() * (phases.x - line.middle.x());
+}
+
+bool may_be_straight(const TagPhases& phases, double pose_sigma_m) {
+  constexpr double kDeviations = 3.0;
+  return std::sqrt(distances_from_line(phases).square().mean()) <= kDeviations * pose_sigma_m;
+}
+
 Eigen::Vector2d mirror_image(const TagPhases& phases, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d middle(phases.x.mean(), phases.y.mean());
-  const Eigen::ArrayXd dx = phases.x - middle.x();
-  const Eigen::ArrayXd dy = phases.y - middle.y();
-  // Principal axis of the points: the eigenvector of their scatter matrix with the larger
-  // eigenvalue.
-  const double angle =
-      0.5 * std::atan2(2.0 * (dx * dy).sum(), dx.square().sum() - dy.square().sum());
-  const Eigen::Vector2d axis(std::cos(angle), std::sin(angle));
-  const Eigen::Vector2d apart = p - middle;
-  return middle + 2.0 * axis.dot(apart) * axis - apart;
+  const PathLine line = principal_axis(phases);
+  const Eigen::Vector2d apart = p - line.middle;
+  return line.middle + 2.0 * line.along.dot(apart) * line.along - apart;
 }
 
 TagPhases wrapped_phases(const LocalizationProblem& problem, const SamplesOfTag& samples,

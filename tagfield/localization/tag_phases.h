@@ -64,6 +64,15 @@ inline double nearest_to_zero(const TagPhases& phases, const TagPhases::Span& sp
   return phases.unwrapped ? error : error - span.cycle_m * std::round(error / span.cycle_m);
 }
 
+/// Horizontal distances of the antennas' positions from their best-fitting line [m].
+Eigen::ArrayXd distances_from_line(const TagPhases& phases);
+
+/// Whether the path may be straight but for errors of the poses with this standard deviation [m] in
+/// x and in y: its rms distance from a line is at most three times as large. With a tag on the
+/// wrong side, an estimated error has the wrong sign, so that a straight path seems to deviate by
+/// twice the error.
+bool may_be_straight(const TagPhases& phases, double pose_sigma_m);
+
 /// Mirror image of `p` across the principal axis of the antennas' positions, seen from above.
 Eigen::Vector2d mirror_image(const TagPhases& phases, const Eigen::Vector2d& p);
 

@@ -261,16 +261,6 @@ Candidate scaled(Candidate candidate, double factor) {
   return candidate;
 }
 
-/// Ratio of the actual errors to those that residuals suggest: slow errors not explained by a given
-/// pose error are partly absorbed as distance. Errors due to reflections, correlated over a metre
-/// or two of the path, were twice as large (docs/methods.md); white noise is not absorbed.
-double fitted_away(const TagPhases& phases, const Eigen::ArrayXd& errors) {
-  constexpr double kSlowErrors = 3.0;  // Reads per independent one, above which errors are slow.
-  if (phases.pose_error) return 1.0;
-  return 1.0 +
-         std::min(1.0, (correlation_factor(phases.spans, errors) - 1.0) / (kSlowErrors - 1.0));
-}
-
 /// Ratio of the standard error of a sum of phasors to the linearized one. Normal phase errors with
 /// covariances c_ij scatter the sum's slope by e^(−c) sinh c_ij and reduce its curvature by
 /// e^(−c/2), so each c_ij counts as sinh c_ij. That is at most sinh(c)/c times as much, c being the
@@ -289,7 +279,8 @@ Candidate careful_candidate(const TagPhases& phases, const HeightModel& height,
   Candidate honest = candidate_at(phases, height, place);
   if (!bent) return honest;
   const TagFit fit = fit_at(phases, height, place);
-  const double factor = fitted_away(phases, residuals_of(phases, height, fit));
+  const double factor =
+      phases.pose_error ? 1.0 : fitted_away(phases.spans, residuals_of(phases, height, fit));
   const Candidate by_residuals = scaled(
       make_candidate(height, place, covariance_of(phases, height, fit), honest.rms_m), factor);
   return by_residuals.expected_error_m > honest.expected_error_m ? by_residuals : honest;

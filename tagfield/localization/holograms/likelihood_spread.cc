@@ -80,6 +80,28 @@ LikelihoodSpread over(const Box& box, const std::vector<double>& logs) {
 
 }  // namespace
 
+Climbed climbed(const LogLikelihood& likelihood, const Eigen::Vector3d& start) {
+  constexpr double kFirstStep = 0.08, kLastStep = 0.001;  // [m]
+  constexpr int kMaxMoves = 200;
+  Climbed best{start, 0.0};
+  int moves = 0;
+  for (double step = kFirstStep; step > kLastStep && moves < kMaxMoves; ++moves) {
+    const std::vector<Vector3d> around =
+        places_of({best.place, Vector3d::Constant(step), {3, 3, 3}});
+    const std::vector<double> logs = by_tiles(around, likelihood);
+    const auto top =
+        static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin());
+    const std::size_t middle = around.size() / 2;
+    if (logs[top] > logs[middle]) {
+      best = {around[top], logs[top]};
+    } else {
+      best.log = logs[middle];
+      step /= 2.0;
+    }
+  }
+  return best;
+}
+
 FirstBox first_box(const LogLikelihood& likelihood, const Vector3d& start, bool level) {
   return {start, level, by_tiles(places_of(first_about(start, level)), likelihood)};
 }

@@ -18,6 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFirstCell = 0.9;        ///< Of λ/2, which is one turn of phase.
+constexpr float kImpossible = -1e9F;      ///< ln of a likelihood.
 constexpr std::size_t kMaxima = 24;       ///< On each plane.
 constexpr double kOnePlace = 0.45;        ///< Maxima closer than this are one position [m].
 constexpr double kMinProbability = 0.01;  ///< Of a candidate, relative to the best.
@@ -100,6 +101,32 @@ double disagreement(const RobustSearch& search, LikelihoodSpread spread) {
   for (const double greatest : greatest_about(spread, kDeviations, parts)) gained += greatest;
   const int unknowns = search.height.unknowns();
   return 2.0 * gained / (unknowns * (kPathParts - 1));
+}
+
+/// The likelihood on the side of the antennas on which the height is estimated.
+LogLikelihood likelihood_on_side(const RobustSearch& search) {
+  const double side = search.height.side;
+  const double lowest = (side * search.phases.z).minCoeff() - side * search.height.z;
+  return [likelihood = likelihood_of(search, kWholePath), up = static_cast<float>(side),
+          least = static_cast<float>(lowest)](const Tile& x, const Tile& y, const Tile& z) {
+    return Tile((up * z < least).select(Tile::Constant(kImpossible), likelihood(x, y, z)));
+  };
+}
+
+/// The maxima near the positions found on planes, which are up to 0.35 m above or below, the most
+/// likely first.
+std::vector<Vector3d> maxima_in_space(const RobustSearch& search,
+                                      const std::vector<Vector3d>& places) {
+  const LogLikelihood likelihood = likelihood_on_side(search);
+  std::vector<Climbed> maxima;
+  maxima.reserve(places.size());
+  for (const Vector3d& p : places) maxima.push_back(climbed(likelihood, p - origin_of(search)));
+  std::stable_sort(maxima.begin(), maxima.end(),
+                   [](const Climbed& a, const Climbed& b) { return a.log > b.log; });
+  std::vector<Vector3d> ranked;
+  ranked.reserve(maxima.size());
+  for (const Climbed& maximum : maxima) ranked.emplace_back(maximum.place + origin_of(search));
+  return ranked;
 }
 
 /// Likelihood around each position, computed on first use.
@@ -211,8 +238,9 @@ TagEstimate locate_robustly(const LocalizationProblem& problem, const std::strin
   search.max_range_m = options.max_range_m;
   search.middle = middle_of(search.phases);
   search.all = segmented_reads(search.phases, search.wavelength, search.height.z, search.middle);
-  return judged(problem, search, doubted(search, best_places(search, options.search_reads)),
-                std::move(estimate));
+  std::vector<Vector3d> places = best_places(search, options.search_reads);
+  if (search.height.kind != HeightModel::Kind::kKnown) places = maxima_in_space(search, places);
+  return judged(problem, search, doubted(search, places), std::move(estimate));
 }
 
 const OptionTable<RobustOptions>& robust_options() {

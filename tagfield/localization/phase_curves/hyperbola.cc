@@ -60,12 +60,20 @@ std::vector<Eigen::Vector2d> unrefined(const PositionSearch& search,
   return places;
 }
 
+/// Without fitted_away(): each of many short sections has its own offset, which takes up slow
+/// errors before the position does.
+Candidate candidate_of(const TagPhases& phases, const HeightModel& height, const TagFit& fit) {
+  if (phases.pose_error) return make_candidate(phases, height, fit);
+  const double rms_m = std::sqrt(residuals_of(phases, height, fit).square().mean());
+  return make_candidate(height, fit.unknowns, covariance_of(phases, height, fit), rms_m);
+}
+
 Candidate candidate_at(const TagPhases& phases, const Eigen::Vector2d& p, double height) {
   const HeightModel known{HeightModel::Kind::kKnown, height, 1.0};
   TagFit fit;
   fit.unknowns = {p.x(), p.y(), 0.0};
   fit.offsets = offsets_at(phases, known, fit.unknowns);
-  return make_candidate(phases, known, fit);
+  return candidate_of(phases, known, fit);
 }
 
 /// Accounts for a guessed plane: the position may be off by as much as it moves if the height is
@@ -73,7 +81,7 @@ Candidate candidate_at(const TagPhases& phases, const Eigen::Vector2d& p, double
 void span_height(const TagPhases& phases, HeightSide side, Candidate& candidate) {
   const HeightModel height = estimated_height(side, phases);
   const TagFit fit = fit_tag(phases, height, to_unknowns(height, candidate.p_WT));
-  const Candidate free = make_candidate(phases, height, fit);
+  const Candidate free = candidate_of(phases, height, fit);
   if (!free.covariance) return;
   const Eigen::Vector3d off = free.p_WT - candidate.p_WT;
   candidate.covariance = *free.covariance + off * off.transpose();

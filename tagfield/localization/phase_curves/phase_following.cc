@@ -2,7 +2,10 @@
 #include "tagfield/localization/phase_curves/phase_following.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <set>
 
 #include "tagfield/base/units.h"
 
@@ -77,7 +80,113 @@ void begin_segment(const PhaseSample& sample, std::vector<PhaseSegment>& segment
   segments.back().distance_m.push_back(0.0);
 }
 
+/// Difference of a sample from what the one before leads to expect, in standard deviations; large
+/// if that is too vague, or the carrier is another.
+double deviations_of(Follower follower, const PhaseSample& before, const PhaseSample& sample,
+                     double noise_rad) {
+  constexpr double kUnrelated = 1e9;
+  if (before.frequency_hz != sample.frequency_hz) return kUnrelated;
+  const double wavenumber = 2.0 * kTwoPi / wavelength(sample.frequency_hz);
+  const Expected expected = expect(follower, sample.p_WA - before.p_WA, wavenumber, noise_rad);
+  if (!(std::sqrt(expected.variance) < kUnsure)) return kUnrelated;
+  const double innovation = wrap_to_pi(sample.phase_rad - before.phase_rad - expected.change);
+  return std::abs(innovation) / std::sqrt(expected.variance);
+}
+
+/// Number of samples from `i` on that are strays, given the last one followed.
+std::size_t count_strays(const Follower& follower, const PhaseSample& last,
+                         const std::vector<PhaseSample>& samples, std::size_t i, double noise_rad) {
+  constexpr double kImplausible = 4.5, kPlausible = 3.0;
+  constexpr std::size_t kMost = 3;
+  constexpr double kKnown = 1e8;
+  const double off = deviations_of(follower, last, samples[i], noise_rad);
+  if (off < kImplausible || off > kKnown) return 0;
+  for (std::size_t n = 1; n <= kMost && i + n < samples.size(); ++n) {
+    if (deviations_of(follower, last, samples[i + n], noise_rad) < kPlausible) return n;
+  }
+  return 0;
+}
+
+/// Updates with the next sample; false if it can't be expected well enough.
+bool follow_on(const PhaseSample& before, const PhaseSample& sample, double noise_rad,
+               Follower& follower) {
+  if (before.frequency_hz != sample.frequency_hz) return false;
+  const double wavenumber = 2.0 * kTwoPi / wavelength(sample.frequency_hz);
+  const Expected expected = expect(follower, sample.p_WA - before.p_WA, wavenumber, noise_rad);
+  if (!(std::sqrt(expected.variance) < kUnsure)) return false;
+  const double measured = sample.phase_rad - before.phase_rad;
+  learn(follower, expected, wrap_to_pi(measured - expected.change), noise_rad);
+  return true;
+}
+
+/// A wrong direction may explain every second or third read, so that the others seem arbitrary:
+/// begins anew where that may be so.
+std::vector<std::size_t> strays_forward(const std::vector<PhaseSample>& samples, double noise_rad) {
+  constexpr int kFewest = 4;        ///< Reads followed before any counts as stray,
+  constexpr int kFewestAmid = 2;    ///< and those between strays.
+  std::vector<std::size_t> strays;  ///< But for the last ones.
+  std::vector<std::size_t> last_strays;
+  Follower follower = start(noise_rad);
+  std::size_t last = 0;
+  int followed = 0;
+  int since = kFewestAmid;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    std::size_t count = 0;
+    if (followed >= kFewest) {
+      count = count_strays(follower, samples[last], samples, i, noise_rad);
+    }
+    const bool is_doubtful = count > 0 && since < kFewestAmid;
+    if (is_doubtful) {
+      last_strays.clear();
+    } else if (count > 0) {
+      strays.insert(strays.end(), last_strays.begin(), last_strays.end());
+      last_strays.clear();
+      for (std::size_t n = 0; n < count; ++n) last_strays.push_back(i + n);
+      since = 0;
+      i += count;
+    }
+    const bool follows = !is_doubtful && follow_on(samples[last], samples[i], noise_rad, follower);
+    last = i;
+    followed = follows ? followed + 1 : 0;
+    since = follows ? since + 1 : kFewestAmid;
+    if (!follows) follower = start(noise_rad);
+  }
+  strays.insert(strays.end(), last_strays.begin(), last_strays.end());
+  return strays;
+}
+
 }  // namespace
+
+std::vector<PhaseSample> by_channel(std::vector<PhaseSample> series) {
+  std::stable_sort(series.begin(), series.end(), [](const PhaseSample& a, const PhaseSample& b) {
+    return a.frequency_hz < b.frequency_hz;
+  });
+  return series;
+}
+
+std::vector<std::size_t> stray_samples(const std::vector<PhaseSample>& samples, double noise_rad) {
+  constexpr int kRounds = 3;
+  const double noise = std::max(noise_rad, kMinNoise);
+  std::vector<std::size_t> left(samples.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  std::set<std::size_t> strays;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<PhaseSample> series;
+    series.reserve(left.size());
+    for (const std::size_t i : left) series.push_back(samples[i]);
+    const std::size_t before = strays.size();
+    for (const std::size_t i : strays_forward(series, noise)) strays.insert(left[i]);
+    std::reverse(series.begin(), series.end());
+    for (const std::size_t i : strays_forward(series, noise)) {
+      strays.insert(left[left.size() - 1 - i]);
+    }
+    if (strays.size() == before) break;
+    left.erase(std::remove_if(left.begin(), left.end(),
+                              [&](std::size_t i) { return strays.count(i) > 0; }),
+               left.end());
+  }
+  return {strays.begin(), strays.end()};
+}
 
 std::vector<PhaseSegment> follow(const std::vector<PhaseSample>& samples, double noise_rad) {
   const double noise = std::max(noise_rad, kMinNoise);

@@ -3,11 +3,16 @@
 /// Phase unwrapping aided by the phase change expected from the antenna's motion.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "tagfield/localization/phase_curves/unwrap.h"
 
 namespace tagfield {
+
+/// Samples sorted by channel, each channel in time order: the phase continues when the reader
+/// returns to a channel, however many others it used in between.
+std::vector<PhaseSample> by_channel(std::vector<PhaseSample> series);
 
 /// Unwraps the phase from sample to sample, like unwrap(), but relative to the expected change: the
 /// distance of a tag in the direction u from the antenna changes by −u·Δa over the antenna's step
@@ -16,5 +21,11 @@ namespace tagfield {
 /// exceeds about 0.15 turns, or if the carrier changes. This unwraps noisier phases, and over steps
 /// longer than λ/4 once the direction is known. `noise_rad`: standard deviation of the phase noise.
 std::vector<PhaseSegment> follow(const std::vector<PhaseSample>& samples, double noise_rad);
+
+/// Indices, in ascending order, of samples whose phase is arbitrary: over 4.5 standard deviations
+/// from what at least four samples before lead to expect, while one of the next three samples is
+/// as expected, as are the two before it if these follow another stray. Determined forward and
+/// backward in time, so that those at the beginning count, too, and again without those found.
+std::vector<std::size_t> stray_samples(const std::vector<PhaseSample>& samples, double noise_rad);
 
 }  // namespace tagfield

@@ -52,15 +52,6 @@ std::vector<Eigen::Vector2d> find_minima(PositionSearch& search) {
   return ranked();
 }
 
-/// Samples sorted by channel, each channel in time order: the phase continues when the reader
-/// returns to a channel, however many others it used in between.
-std::vector<PhaseSample> by_channel(std::vector<PhaseSample> series) {
-  std::stable_sort(series.begin(), series.end(), [](const PhaseSample& a, const PhaseSample& b) {
-    return a.frequency_hz < b.frequency_hz;
-  });
-  return series;
-}
-
 }  // namespace
 
 PositionSearch begin_search(const SamplesOfTag& samples, double height, const Follow& follow) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "tagfield/localization/test/made_reads.h"
 
 namespace tagfield {
@@ -97,6 +100,51 @@ TEST(PhaseFollowing, BridgesAFewLostReads) {
   const auto segments = follow(samples, 0.1);
   ASSERT_EQ(segments.size(), 1U);
   EXPECT_LT(greatest_slip(segments[0], {2.0, 1.5, 0.4}), 0.3);
+}
+
+/// Phases turned by at least a radian, one in twelve, among noise of 0.1 rad.
+TEST(PhaseFollowing, FindsStrayPhasesAndHardlyAnyOther) {
+  std::size_t strays = 0;
+  std::size_t found = 0;
+  std::size_t others = 0;
+  std::size_t wrongly_found = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    made::Rng rng(seed);
+    const made::Path path = made::s_curve(8.0, 0.03);
+    const Eigen::Vector3d p_WT = made::beside(path, 2.0, 0.4, rng);
+    auto samples = made::read_along(path, p_WT, made::Noise{}, rng);
+    std::set<std::size_t> changed;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const double turn = made::uniform(rng, 1.0, kTwoPi - 1.0);
+      if (made::uniform(rng, 0.0, 1.0) > 1.0 / 12.0) continue;
+      samples[i].phase_rad = wrap_to_two_pi(samples[i].phase_rad + turn);
+      changed.insert(i);
+    }
+    const std::vector<std::size_t> flagged = stray_samples(samples, 0.1);
+    EXPECT_TRUE(std::is_sorted(flagged.begin(), flagged.end()));
+    const auto right = static_cast<std::size_t>(std::count_if(
+        flagged.begin(), flagged.end(), [&](std::size_t i) { return changed.count(i) > 0; }));
+    strays += changed.size();
+    found += right;
+    others += samples.size() - changed.size();
+    wrongly_found += flagged.size() - right;
+  }
+  EXPECT_GT(5 * found, 4 * strays) << found << " of " << strays;
+  EXPECT_LT(50 * wrongly_found, others) << wrongly_found << " of " << others;
+}
+
+TEST(PhaseFollowing, FindsNoStraysWhereThereAreNone) {
+  std::size_t flagged = 0;
+  std::size_t reads = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    made::Rng rng(seed);
+    const made::Path path = made::aisles(0.03);
+    const Eigen::Vector3d p_WT = made::beside(path, made::uniform(rng, 1.0, 3.0), 0.4, rng);
+    const auto samples = made::read_along(path, p_WT, made::Noise{}, rng);
+    flagged += stray_samples(samples, 0.1).size();
+    reads += samples.size();
+  }
+  EXPECT_LT(1000 * flagged, reads) << flagged << " of " << reads;
 }
 
 }  // namespace

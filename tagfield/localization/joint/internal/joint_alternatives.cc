@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Other positions that explain the reads equally well.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -11,19 +10,6 @@ namespace tagfield {
 namespace {
 
 using Index = Eigen::Index;
-
-/// Horizontal distances of the antenna positions from their best-fitting line [m]: along the minor
-/// eigenvector of their scatter.
-Eigen::ArrayXd from_line(const TagPhases& phases) {
-  Eigen::MatrixX2d places(phases.x.size(), 2);
-  places << phases.x, phases.y;
-  const Eigen::RowVector2d middle = places.colwise().mean();
-  places.rowwise() -= middle;
-  const Eigen::Matrix2d scatter = places.transpose() * places;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
-  axes.computeDirect(scatter);  // The iterative solver takes seconds to compile.
-  return places * axes.eigenvectors().col(0);
-}
 
 /// Path of all antennas, and whether it is so straight that mirror images are ambiguous.
 struct Way {
@@ -44,7 +30,7 @@ Way way_of(const JointSystem& system) {
     way.places.y.segment(at, tag.phases.size()) = tag.phases.y;
     at += tag.phases.size();
   }
-  way.is_straight = from_line(way.places).abs().maxCoeff() < kStraight;
+  way.is_straight = distances_from_line(way.places).abs().maxCoeff() < kStraight;
   return way;
 }
 
@@ -114,11 +100,6 @@ double pose_sigma_at(const JointSystem& system, const JointTag& tag) {
   return most;
 }
 
-/// A path may be straight if its rms distance from a line is at most this many times the pose
-/// error: with a tag on the wrong side, the error is estimated with the wrong sign, so that a
-/// straight path seems to deviate by twice the pose error.
-constexpr double kStraight = 3.0;
-
 /// Adds the mirror image of a tag read only from a straight section. There, only the pose error
 /// shared with other tags distinguishes the sides, and it is just as conclusive for the wrong side
 /// if some of those tags are on the wrong side. The sides of reference tags are known.
@@ -131,8 +112,7 @@ void add_mirrored_where_straight(JointState& state) {
         std::any_of(system.tags.begin(), system.tags.end(),
                     [&](const JointTag& other) { return other.fixed && shares_knots(tag, other); });
     const TagPhases phases = corrected_way(system, tag);
-    const double rms = std::sqrt(from_line(phases).square().mean());
-    if (has_reference || rms > kStraight * pose_sigma_at(system, tag)) continue;
+    if (has_reference || !may_be_straight(phases, pose_sigma_at(system, tag))) continue;
     PositionVector image = tag.fit.unknowns;
     image.head<2>() = mirror_image(phases, image.head<2>());
     const Candidate mirrored =

@@ -339,11 +339,28 @@ void fit_wrapped_jointly(JointState& state, int threads) {
   minimize(system, kMaxRoundsOfJointFit, threads);
 }
 
+namespace {
+
+/// Ratio of a tag's squared error by its residuals, including that those near in time are alike, to
+/// that by the noise that its covariance was computed with; at least 1.
+double left_over(const JointSystem& system, const JointTag& tag, const Eigen::ArrayXd& residuals) {
+  const double noise_m2 =
+      system.noise_rad * system.noise_rad / tag.phases.wavenumber.square().mean();
+  const double variance = residual_variance(tag.phases.spans, residuals) *
+                          correlation_factor(tag.phases.spans, residuals);
+  const double away = fitted_away(tag.phases.spans, residuals);
+  return std::max(1.0, away * away * tag.weight * variance / noise_m2);
+}
+
+}  // namespace
+
 Candidate candidate_of(const JointSystem& system, std::size_t tag,
                        const Eigen::Matrix3d& covariance) {
   const JointTag& at = system.tags[tag];
-  const double rms_m = std::sqrt(residuals_of(system, at).square().mean());
-  return make_candidate(at.height, at.fit.unknowns, covariance, rms_m);
+  const Eigen::ArrayXd residuals = residuals_of(system, at);
+  const double rms_m = std::sqrt(residuals.square().mean());
+  return make_candidate(at.height, at.fit.unknowns, left_over(system, at, residuals) * covariance,
+                        rms_m);
 }
 
 }  // namespace tagfield
