@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -224,19 +225,27 @@ void warn_of_limits(const Method& chosen, const EstimateLimits& limits, Diagnost
   warn("max_rms_m", limits.max_rms_m, kUsual.max_rms_m);
 }
 
+/// By `multipath`; nullopt if no phases fit the known world.
+std::optional<LocalizationResult> located_through_world(const std::vector<Method>& methods,
+                                                        const LocalizationProblem& given,
+                                                        int threads, Diagnostics& diagnostics) {
+  std::optional<LocalizationResult> result =
+      find_method(methods, "multipath").locate(given, threads, diagnostics);
+  result->why =
+      "the world is known, and the effect of its reflections on the phases is traced "
+      "(known_world: false locates without it)";
+  if (result->explained.empty()) result.reset();
+  return result;
+}
+
 /// Chooses among these and runs the chosen one.
 LocateFunction among(const std::vector<Method>& methods, const AutomaticOptions& options) {
   return
       [methods, options](const LocalizationProblem& given, int threads, Diagnostics& diagnostics) {
         DataTraits traits = traits_of(given, threads);
         if (is_through_world(options, given, traits, diagnostics)) {
-          LocalizationResult result =
-              find_method(methods, "multipath").locate(given, threads, diagnostics);
-          result.why =
-              "the world is known, and the effect of its reflections on the phases is traced "
-              "(known_world: false locates without it)";
-          // A wrong world explains nothing.
-          if (!result.explained.empty()) return result;
+          auto through_world = located_through_world(methods, given, threads, diagnostics);
+          if (through_world) return *std::move(through_world);
         }
         LocalizationProblem cleaned;
         // Amid reflections phases jump where the field fades: those are no outliers.

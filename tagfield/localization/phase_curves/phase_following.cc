@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <utility>
 
+#include "tagfield/base/median.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -80,11 +82,12 @@ void begin_segment(const PhaseSample& sample, std::vector<PhaseSegment>& segment
   segments.back().distance_m.push_back(0.0);
 }
 
-/// Difference of a sample from what the one before leads to expect, in standard deviations; large
-/// if that is too vague, or the carrier is another.
+constexpr double kUnrelated = 1e9;
+
+/// Difference of a sample from what the one before leads to expect, in standard deviations;
+/// kUnrelated if that is too vague, or the carrier is another.
 double deviations_of(Follower follower, const PhaseSample& before, const PhaseSample& sample,
                      double noise_rad) {
-  constexpr double kUnrelated = 1e9;
   if (before.frequency_hz != sample.frequency_hz) return kUnrelated;
   const double wavenumber = 2.0 * kTwoPi / wavelength(sample.frequency_hz);
   const Expected expected = expect(follower, sample.p_WA - before.p_WA, wavenumber, noise_rad);
@@ -98,9 +101,8 @@ std::size_t count_strays(const Follower& follower, const PhaseSample& last,
                          const std::vector<PhaseSample>& samples, std::size_t i, double noise_rad) {
   constexpr double kImplausible = 4.5, kPlausible = 3.0;
   constexpr std::size_t kMost = 3;
-  constexpr double kKnown = 1e8;
   const double off = deviations_of(follower, last, samples[i], noise_rad);
-  if (off < kImplausible || off > kKnown) return 0;
+  if (off < kImplausible || off >= kUnrelated) return 0;
   for (std::size_t n = 1; n <= kMost && i + n < samples.size(); ++n) {
     if (deviations_of(follower, last, samples[i + n], noise_rad) < kPlausible) return n;
   }
@@ -155,6 +157,21 @@ std::vector<std::size_t> strays_forward(const std::vector<PhaseSample>& samples,
   return strays;
 }
 
+/// Noise with which half of the samples are as expected: larger than that of the phases if the
+/// antenna's steps are not exact.
+double noise_with_steps(const std::vector<PhaseSample>& samples, double noise_rad) {
+  constexpr std::size_t kFewest = 8;
+  std::vector<double> deviations;
+  Follower follower = start(noise_rad);
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double off = deviations_of(follower, samples[i - 1], samples[i], noise_rad);
+    if (off < kUnrelated) deviations.push_back(off);
+    if (!follow_on(samples[i - 1], samples[i], noise_rad, follower)) follower = start(noise_rad);
+  }
+  if (deviations.size() < kFewest) return noise_rad;
+  return noise_rad * std::max(1.0, sigma_by_median(std::move(deviations)));
+}
+
 }  // namespace
 
 std::vector<PhaseSample> by_channel(std::vector<PhaseSample> series) {
@@ -166,7 +183,7 @@ std::vector<PhaseSample> by_channel(std::vector<PhaseSample> series) {
 
 std::vector<std::size_t> stray_samples(const std::vector<PhaseSample>& samples, double noise_rad) {
   constexpr int kRounds = 3;
-  const double noise = std::max(noise_rad, kMinNoise);
+  const double noise = noise_with_steps(samples, std::max(noise_rad, kMinNoise));
   std::vector<std::size_t> left(samples.size());
   std::iota(left.begin(), left.end(), std::size_t{0});
   std::set<std::size_t> strays;

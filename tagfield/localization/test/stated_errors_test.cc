@@ -4,27 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
 
-#include "made_survey.h"
-#include "method_study.h"
+#include "survey_claims.h"
 
 namespace tagfield {
 namespace {
 
 using namespace made;
-
-struct Claims {
-  int tags = 0;
-  int located = 0;
-  int ambiguous = 0;
-  int ambiguous_with_truth = 0;  ///< Some candidate is within 0.3 m.
-  int false_ones = 0;            ///< Over five expected errors off.
-  double squares = 0.0;          ///< Σ (error/expected)².
-
-  [[nodiscard]] double calibration() const { return std::sqrt(squares / located); }
-};
 
 using Change = std::function<void(Survey&)>;
 
@@ -36,25 +25,7 @@ Claims claims_of(const std::string& method, const SurveyPlan& plan, unsigned see
     Rng rng(seed);
     Survey survey = make_survey(plan, rng);
     if (change) change(survey);
-    LocalizationOptions options;
-    options.method = method;
-    options.known = survey.known;
-    Diagnostics diagnostics;
-    for (const TagEstimate& estimate :
-         locate_tags(survey.reads, survey.poses, options, diagnostics).estimates) {
-      const Eigen::Vector3d& truth = survey.truth.at(estimate.tag);
-      ++claims.tags;
-      if (estimate.verdict == Verdict::kAmbiguous) {
-        ++claims.ambiguous;
-        if (nearest(estimate, truth) < 0.3) ++claims.ambiguous_with_truth;
-      }
-      if (estimate.verdict != Verdict::kLocated) continue;
-      const Candidate& best = estimate.candidates.front();
-      const double ratio = level_error(best, truth) / best.expected_error_m;
-      ++claims.located;
-      if (ratio > 5.0) ++claims.false_ones;
-      claims.squares += ratio * ratio;
-    }
+    add_claims(method, survey, claims);
   }
   return claims;
 }
