@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -82,18 +83,29 @@ void begin_segment(const PhaseSample& sample, std::vector<PhaseSegment>& segment
   segments.back().distance_m.push_back(0.0);
 }
 
-constexpr double kUnrelated = 1e9;
-
-/// Difference of a sample from what the one before leads to expect, in standard deviations;
-/// kUnrelated if that is too vague, or the carrier is another.
-double deviations_of(Follower follower, const PhaseSample& before, const PhaseSample& sample,
-                     double noise_rad) {
-  if (before.frequency_hz != sample.frequency_hz) return kUnrelated;
+/// Expected phase change from one sample to another; nullopt if it is too vague, or the carrier is
+/// another.
+std::optional<Expected> expected_from(Follower& follower, const PhaseSample& before,
+                                      const PhaseSample& sample, double noise_rad) {
+  if (before.frequency_hz != sample.frequency_hz) return std::nullopt;
   const double wavenumber = 2.0 * kTwoPi / wavelength(sample.frequency_hz);
   const Expected expected = expect(follower, sample.p_WA - before.p_WA, wavenumber, noise_rad);
-  if (!(std::sqrt(expected.variance) < kUnsure)) return kUnrelated;
-  const double innovation = wrap_to_pi(sample.phase_rad - before.phase_rad - expected.change);
-  return std::abs(innovation) / std::sqrt(expected.variance);
+  if (!(std::sqrt(expected.variance) < kUnsure)) return std::nullopt;
+  return expected;
+}
+
+/// Measured minus expected change [rad].
+double innovation_of(const Expected& expected, const PhaseSample& before,
+                     const PhaseSample& sample) {
+  return wrap_to_pi(sample.phase_rad - before.phase_rad - expected.change);
+}
+
+/// Size of the innovation in standard deviations; nullopt without an expectation.
+std::optional<double> deviations_of(Follower follower, const PhaseSample& before,
+                                    const PhaseSample& sample, double noise_rad) {
+  const auto expected = expected_from(follower, before, sample, noise_rad);
+  if (!expected) return std::nullopt;
+  return std::abs(innovation_of(*expected, before, sample)) / std::sqrt(expected->variance);
 }
 
 /// Number of samples from `i` on that are strays, given the last one followed.
@@ -101,24 +113,26 @@ std::size_t count_strays(const Follower& follower, const PhaseSample& last,
                          const std::vector<PhaseSample>& samples, std::size_t i, double noise_rad) {
   constexpr double kImplausible = 4.5, kPlausible = 3.0;
   constexpr std::size_t kMost = 3;
-  const double off = deviations_of(follower, last, samples[i], noise_rad);
-  if (off < kImplausible || off >= kUnrelated) return 0;
+  if (deviations_of(follower, last, samples[i], noise_rad).value_or(0.0) < kImplausible) return 0;
   for (std::size_t n = 1; n <= kMost && i + n < samples.size(); ++n) {
-    if (deviations_of(follower, last, samples[i + n], noise_rad) < kPlausible) return n;
+    const auto off = deviations_of(follower, last, samples[i + n], noise_rad);
+    if (off && *off < kPlausible) return n;
   }
   return 0;
 }
 
-/// Updates with the next sample; false if it can't be expected well enough.
-bool follow_on(const PhaseSample& before, const PhaseSample& sample, double noise_rad,
-               Follower& follower) {
-  if (before.frequency_hz != sample.frequency_hz) return false;
-  const double wavenumber = 2.0 * kTwoPi / wavelength(sample.frequency_hz);
-  const Expected expected = expect(follower, sample.p_WA - before.p_WA, wavenumber, noise_rad);
-  if (!(std::sqrt(expected.variance) < kUnsure)) return false;
-  const double measured = sample.phase_rad - before.phase_rad;
-  learn(follower, expected, wrap_to_pi(measured - expected.change), noise_rad);
-  return true;
+/// Updates with the next sample and returns the unwrapped change of phase [rad]; nullopt, with a
+/// new start, if there is no expectation.
+std::optional<double> follow_on(const PhaseSample& before, const PhaseSample& sample,
+                                double noise_rad, Follower& follower) {
+  const auto expected = expected_from(follower, before, sample, noise_rad);
+  if (!expected) {
+    follower = start(noise_rad);
+    return std::nullopt;
+  }
+  const double innovation = innovation_of(*expected, before, sample);
+  learn(follower, *expected, innovation, noise_rad);
+  return expected->change + innovation;
 }
 
 /// A wrong direction may explain every second or third read, so that the others seem arbitrary:
@@ -147,11 +161,12 @@ std::vector<std::size_t> strays_forward(const std::vector<PhaseSample>& samples,
       since = 0;
       i += count;
     }
-    const bool follows = !is_doubtful && follow_on(samples[last], samples[i], noise_rad, follower);
+    if (is_doubtful) follower = start(noise_rad);
+    const bool follows =
+        !is_doubtful && follow_on(samples[last], samples[i], noise_rad, follower).has_value();
     last = i;
     followed = follows ? followed + 1 : 0;
     since = follows ? since + 1 : kFewestAmid;
-    if (!follows) follower = start(noise_rad);
   }
   strays.insert(strays.end(), last_strays.begin(), last_strays.end());
   return strays;
@@ -164,9 +179,9 @@ double noise_with_steps(const std::vector<PhaseSample>& samples, double noise_ra
   std::vector<double> deviations;
   Follower follower = start(noise_rad);
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double off = deviations_of(follower, samples[i - 1], samples[i], noise_rad);
-    if (off < kUnrelated) deviations.push_back(off);
-    if (!follow_on(samples[i - 1], samples[i], noise_rad, follower)) follower = start(noise_rad);
+    const auto off = deviations_of(follower, samples[i - 1], samples[i], noise_rad);
+    if (off) deviations.push_back(*off);
+    follow_on(samples[i - 1], samples[i], noise_rad, follower);
   }
   if (deviations.size() < kFewest) return noise_rad;
   return noise_rad * std::max(1.0, sigma_by_median(std::move(deviations)));
@@ -208,28 +223,18 @@ std::vector<std::size_t> stray_samples(const std::vector<PhaseSample>& samples, 
 std::vector<PhaseSegment> follow(const std::vector<PhaseSample>& samples, double noise_rad) {
   const double noise = std::max(noise_rad, kMinNoise);
   std::vector<PhaseSegment> segments;
-  Follower follower;
+  Follower follower = start(noise);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const PhaseSample& sample = samples[i];
-    if (i == 0 || samples[i - 1].frequency_hz != sample.frequency_hz) {
+    const auto change =
+        i > 0 ? follow_on(samples[i - 1], sample, noise, follower) : std::optional<double>();
+    if (!change) {
       begin_segment(sample, segments);
-      follower = start(noise);
       continue;
     }
     const double wavenumber = 2.0 * kTwoPi / wavelength(sample.frequency_hz);
-    const Expected expected =
-        expect(follower, sample.p_WA - samples[i - 1].p_WA, wavenumber, noise);
-    if (!(std::sqrt(expected.variance) < kUnsure)) {
-      begin_segment(sample, segments);
-      follower = start(noise);
-      continue;
-    }
-    const double measured = sample.phase_rad - samples[i - 1].phase_rad;
-    const double innovation = wrap_to_pi(measured - expected.change);
-    learn(follower, expected, innovation, noise);
     PhaseSegment& segment = segments.back();
-    segment.distance_m.push_back(segment.distance_m.back() +
-                                 (expected.change + innovation) / wavenumber);
+    segment.distance_m.push_back(segment.distance_m.back() + *change / wavenumber);
     segment.samples.push_back(sample);
   }
   return segments;
