@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "tagfield/localization/aim.h"
 #include "tagfield/localization/at_rest.h"
@@ -13,6 +12,7 @@
 #include "tagfield/localization/common_latency.h"
 #include "tagfield/localization/confirmation.h"
 #include "tagfield/localization/fixed/fixed.h"
+#include "tagfield/localization/height_side.h"
 #include "tagfield/localization/holograms/dah.h"
 #include "tagfield/localization/holograms/particle.h"
 #include "tagfield/localization/holograms/robust.h"
@@ -42,47 +42,6 @@ PathLine way_of(const SamplesOfTag& samples) {
     for (const PhaseSample& sample : series) places.emplace_back(sample.p_WA.head<2>());
   }
   return path_line(places);
-}
-
-/// Whether a position with an estimated height is on the other side of all antennas than `side`, by
-/// more than three times its vertical error.
-bool is_on_wrong_side(HeightSide side, const SamplesOfTag& samples, const Candidate& candidate) {
-  constexpr double kDeviations = 3.0;
-  constexpr double kLevel = 0.01;  // [m]
-  const double variance = candidate.covariance ? (*candidate.covariance)(2, 2) : 0.0;
-  const double slack = kLevel + kDeviations * std::sqrt(std::max(variance, 0.0));
-  const double up = side == HeightSide::kAbove ? 1.0 : -1.0;
-  return std::all_of(samples.begin(), samples.end(), [&](const auto& of_antenna) {
-    const std::vector<PhaseSample>& series = of_antenna.second;
-    return std::all_of(series.begin(), series.end(), [&](const PhaseSample& sample) {
-      return up * (candidate.p_WT.z() - sample.p_WA.z()) < -slack;
-    });
-  });
-}
-
-/// Removes positions on the other side of the antennas than the one on which heights are estimated:
-/// where antennas are at several heights, a fit can end there.
-void keep_on_side(const LocalizationProblem& problem, std::vector<TagEstimate>& estimates) {
-  for (TagEstimate& estimate : estimates) {
-    const auto side = side_to_estimate(problem, estimate.tag);
-    const auto samples = problem.samples.find(estimate.tag);
-    if (!side || samples == problem.samples.end() || estimate.candidates.empty()) continue;
-    if (problem.reference_tags.count(estimate.tag) > 0) continue;
-    const std::size_t before = estimate.candidates.size();
-    const auto wrong = std::remove_if(estimate.candidates.begin(), estimate.candidates.end(),
-                                      [&](const Candidate& candidate) {
-                                        return is_on_wrong_side(*side, samples->second, candidate);
-                                      });
-    estimate.candidates.erase(wrong, estimate.candidates.end());
-    if (estimate.candidates.size() == before) continue;
-    if (estimate.candidates.empty()) {
-      estimate = not_located(std::move(estimate),
-                             fmt::format("no position {} the antennas explains the reads",
-                                         *side == HeightSide::kAbove ? "above" : "below"));
-    } else {
-      judge(problem.limits, estimate);
-    }
-  }
 }
 
 void keep_within_area(const LocalizationProblem& problem, std::vector<TagEstimate>& estimates) {
@@ -167,7 +126,7 @@ LocalizationResult held_against(const LocalizationProblem& problem, Localization
   if (problem.has_phases) refuse_interleaved_tags(problem, result);
   if (problem.has_phases) refuse_departures(problem, threads, result, diagnostics);
   add_map_error(problem, result);
-  keep_on_side(problem, result.estimates);
+  keep_on_height_side(problem, result);
   keep_within_area(problem, result.estimates);
   return result;
 }
