@@ -40,9 +40,13 @@ double correlation_factor(const Spans& spans, const Eigen::ArrayXd& residuals) {
   return factor;
 }
 
-double fitted_away(const Spans& spans, const Eigen::ArrayXd& residuals) {
+double fitted_away(double correlation_factor) {
   constexpr double kSlowErrors = 3.0;  // Reads per independent one, above which errors are slow.
-  return 1.0 + std::min(1.0, (correlation_factor(spans, residuals) - 1.0) / (kSlowErrors - 1.0));
+  return 1.0 + std::min(1.0, (correlation_factor - 1.0) / (kSlowErrors - 1.0));
+}
+
+double fitted_away(const Spans& spans, const Eigen::ArrayXd& residuals) {
+  return fitted_away(correlation_factor(spans, residuals));
 }
 
 double noise_of_one(const Spans& spans, const Eigen::ArrayXd& residuals) {

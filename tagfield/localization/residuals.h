@@ -21,6 +21,7 @@ double correlation_factor(const Spans& spans, const Eigen::ArrayXd& residuals);
 /// Ratio of a fit's actual errors to those that its residuals suggest, 1 to 2: slow errors that no
 /// model explains are partly taken for distance. Errors due to reflections, correlated over a metre
 /// or two of the path, were twice as large (docs/methods.md); white noise is not absorbed.
+double fitted_away(double correlation_factor);
 double fitted_away(const Spans& spans, const Eigen::ArrayXd& residuals);
 
 /// Noise of a single residual [m], from the differences of neighbours in a span, which slow errors

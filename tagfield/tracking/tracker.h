@@ -42,7 +42,8 @@ struct TrackingOptions {
   double min_speed_m_s = 0.05;  ///< Of horizontal motion.
   double max_speed_m_s = 3.0;
   /// Process noise: square root of the acceleration's power density [m/s²/√Hz], in x and in y. The
-  /// velocity drifts by this times √t.
+  /// velocity drifts by this times √t. The least that is assumed: where the phases of a tag demand
+  /// more, up to 30 times as much is taken, and its covariances are four times as large.
   double acceleration_noise = 0.005;
   double height_sigma_m = 0.005;        ///< Of a known height.
   double unknown_height_sigma_m = 0.5;  ///< Of an unknown height.
@@ -97,6 +98,11 @@ struct Track {
   /// Square root of the horizontal covariance's trace at the closest approach to an antenna [m].
   double expected_error_m = 0.0;
   std::size_t left_out = 0;  ///< Reads outside the gate.
+  std::size_t jumps = 0;     ///< Jumps of an antenna's phases that no motion explains.
+  /// Correlated residuals that count as one independent one, at least 1; the covariances allow for
+  /// it (docs/tracking.md).
+  double correlation_factor = 1.0;
+  double acceleration_noise = 0.0;  ///< Process noise that it was smoothed with [m/s²/√Hz].
 };
 
 struct TagTrack {

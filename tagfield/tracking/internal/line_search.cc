@@ -301,6 +301,14 @@ std::vector<StraightMotion> mirror_images(const Pass& pass, const StraightMotion
   return {image};
 }
 
+LineHypothesis fitted_again(const Pass& pass, const TrackingOptions& options,
+                            const LineHypothesis& hypothesis) {
+  StraightMotion start = hypothesis.fit.motion;
+  start.p_WT.z() = pass.height.mean_m;
+  return fitted(pass, sub_apertures(pass, hypothesis.aperture_s), motion_prior(pass, options),
+                hypothesis.fit.noise_rad, hypothesis.aperture_s, start);
+}
+
 std::vector<LineHypothesis> search_lines(const Pass& pass, const TrackingOptions& options,
                                          std::size_t most) {
   constexpr double kFirstNoise = 0.3;

@@ -24,6 +24,10 @@ struct LineHypothesis {
 std::vector<LineHypothesis> search_lines(const Pass& pass, const TrackingOptions& options,
                                          std::size_t most);
 
+/// Fits a hypothesis of another pass again to this one, from the height that is known of this one.
+LineHypothesis fitted_again(const Pass& pass, const TrackingOptions& options,
+                            const LineHypothesis& hypothesis);
+
 /// The mirror image of a motion in the vertical plane that contains all antenna positions; none if
 /// there is no such plane. If all antennas are at one point, the vertical plane through it parallel
 /// to the motion.

@@ -13,6 +13,7 @@
 #include "tagfield/fit/random_phases.h"
 #include "tagfield/fit/robust_noise.h"
 #include "tagfield/fit/symmetric.h"
+#include "tagfield/localization/residuals.h"
 
 namespace tagfield {
 namespace {
@@ -347,6 +348,37 @@ double evidence_of(const Input& input, const Slots& slots, const Forward& forwar
          0.5 * off.dot(solve_symmetric(input.start.covariance, off));
 }
 
+/// Correlated residuals per independent one; those of a slot, from reset to reset, are a series.
+double correlation_of(const Slots& slots, const std::vector<char>& taken,
+                      const std::vector<double>& residuals) {
+  std::map<Eigen::Index, std::vector<std::vector<double>>> series;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    std::vector<std::vector<double>>& of_slot = series[slots.of_read[i]];
+    if (of_slot.empty() || slots.fresh[i] != 0) of_slot.emplace_back();
+    if (taken[i] != 0) of_slot.back().push_back(residuals[i]);
+  }
+  Spans spans;
+  std::vector<double> sorted;
+  for (const auto& [slot, of_slot] : series) {
+    for (const std::vector<double>& one : of_slot) {
+      spans.push_back(
+          {static_cast<Eigen::Index>(sorted.size()), static_cast<Eigen::Index>(one.size())});
+      sorted.insert(sorted.end(), one.begin(), one.end());
+    }
+  }
+  return correlation_factor(spans, Eigen::Map<const Eigen::ArrayXd>(
+                                       sorted.data(), static_cast<Eigen::Index>(sorted.size())));
+}
+
+/// Widens the covariances: `factor` correlated residuals count as one.
+void allow_for_slow_errors(const Input& input, const Slots& slots, double noise_rad, double factor,
+                           Forward& forward, Smoothed& smoothed) {
+  forward = filter(input, slots, std::sqrt(factor) * noise_rad, smoothed);
+  smoothed = smooth_backward(forward.steps);
+  const double wider = fitted_away(factor);
+  for (Eigen::MatrixXd& covariance : smoothed.covariance) covariance *= wider * wider;
+}
+
 Track track_of(const Pass& pass, const Forward& forward, const Smoothed& smoothed,
                const std::vector<double>& residuals) {
   Track track;
@@ -443,8 +475,16 @@ Track smooth(const Pass& pass, const TrackingOptions& options, Linearization lin
       smoothed = {};  // Its offsets do not reflect the jump.
     }
   }
+  const double log_evidence = evidence_of(input, slots, forward, smoothed);
+  const double log_likelihood = forward.log_likelihood;
+  const double factor = keep_noise ? 1.0 : correlation_of(slots, forward.taken, residuals);
+  if (factor > 1.0) allow_for_slow_errors(input, slots, noise, factor, forward, smoothed);
   Track track = track_of(pass, forward, smoothed, residuals);
-  track.log_evidence = evidence_of(input, slots, forward, smoothed);
+  track.log_evidence = log_evidence;
+  track.log_likelihood = log_likelihood;
+  track.correlation_factor = factor;
+  track.acceleration_noise = options.acceleration_noise;
+  track.jumps = count_fresh(slots) - count_fresh(slots_of(pass));
   return track;
 }
 

@@ -32,8 +32,10 @@ struct SmootherStart {
 /// Filters forward, smooths backward (Rauch, Tung and Striebel), then repeats both with each phase
 /// linearized around the smoothed track, which also resolves its whole turns. In between, an
 /// antenna's offset is reset where its residuals jump, and the noise is estimated from the
-/// residuals unless `keep_noise`. With Taylor linearization and no process noise, this is the
-/// Gauss-Newton iteration to the maximum a posteriori (Bell, SIAM J. Optim. 1994).
+/// residuals unless `keep_noise`. Where they are correlated, as with reflections, the covariances
+/// are those of τ times the noise's variance, times fitted_away(τ)² (localization/residuals.h).
+/// With Taylor linearization and no process noise, this is the Gauss-Newton iteration to the
+/// maximum a posteriori (Bell, SIAM J. Optim. 1994).
 Track smooth(const Pass& pass, const TrackingOptions& options, Linearization linearization,
              const SmootherStart& start, bool keep_noise = false);
 

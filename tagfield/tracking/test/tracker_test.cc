@@ -187,6 +187,166 @@ TEST(Tracker, CovariancesAreHonest) {
   EXPECT_LT(sum, 129.6);
 }
 
+/// Largest distance from the truth, seen from above, in standard deviations of the track.
+double worst_sigmas(const Track& track, const made::Motion& truth) {
+  double worst = 0.0;
+  for (const TrackPoint& point : track.points) {
+    const Eigen::Vector2d error = (point.p_WT - truth(made::seconds_of(point.stamp))).head<2>();
+    const Eigen::Matrix2d covariance = point.covariance.topLeftCorner<2, 2>();
+    worst = std::max(worst, std::sqrt(error.dot(covariance.ldlt().solve(error))));
+  }
+  return worst;
+}
+
+TEST(Tracker, TagsThatSpeedUpAreTrackedWithLargerErrors) {
+  // From 0.8 to 1.2 m/s within two seconds, which white acceleration of the default density reaches
+  // in 57 standard deviations.
+  const made::Motion truth = [](double t) -> Eigen::Vector3d {
+    const double within = std::clamp(t, -1.0, 1.0);
+    const double x = within + 0.1 * within * within + (t < within ? 0.8 : 1.2) * (t - within);
+    return {x, 0.02, kBeltHeight};
+  };
+  made::Gate gate;
+  gate.rate_hz = 30.0;
+  gate.antennas.push_back({0.0, -1.5, 1.2});
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    made::Rng rng(seed);
+    std::vector<TagRead> reads;
+    made::read_motion(gate, "tag", truth, -10.0, 5.0, rng, reads);
+    const TagTrack tag = tracks_of(gate, reads, belt_options()).front();
+    ASSERT_EQ(tag.verdict, TrackVerdict::kTracked) << tag.reason;
+    EXPECT_GT(tag.tracks.front().acceleration_noise, 0.01);
+    EXPECT_EQ(tag.reason.rfind("it accelerated, or reflections shift its phases: ", 0), 0U)
+        << tag.reason;
+    EXPECT_LT(worst_sigmas(tag.tracks.front(), truth), 5.0);
+    EXPECT_LT(along_error(tag.tracks.front(), truth), 0.03);
+    TrackingOptions stated = belt_options();
+    stated.acceleration_noise = tag.tracks.front().acceleration_noise;
+    const TagTrack as_stated = tracks_of(gate, reads, stated).front();
+    ASSERT_EQ(as_stated.verdict, TrackVerdict::kTracked) << as_stated.reason;
+    EXPECT_EQ(as_stated.reason, "");
+    EXPECT_LT(as_stated.tracks.front().expected_error_m, tag.tracks.front().expected_error_m);
+  }
+}
+
+TEST(Tracker, TagsThatStopAreNotPutElsewhere) {
+  const made::Motion truth = [](double t) -> Eigen::Vector3d {
+    return {t < 0.0 ? t : std::max(0.0, t - 3.0), 0.0, kBeltHeight};
+  };
+  made::Gate gate;
+  gate.rate_hz = 30.0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    made::Rng rng(seed);
+    std::vector<TagRead> reads;
+    made::read_motion(gate, "tag", truth, -6.0, 9.0, rng, reads);
+    const TagTrack tag = tracks_of(gate, reads, belt_options()).front();
+    if (tag.verdict == TrackVerdict::kNotTracked) {
+      EXPECT_EQ(tag.reason.rfind("cannot track: ", 0), 0U);
+    } else {
+      EXPECT_LT(worst_sigmas(tag.tracks.front(), truth), 6.0) << seed;
+    }
+  }
+}
+
+TEST(Tracker, SlowPhaseErrorsWidenTheCovariances) {
+  // Errors with a correlation of 0.9 from read to read, as by reflections: 19 of them count as one.
+  constexpr double kKept = 0.9;
+  constexpr double kSigma = 0.2;
+  constexpr int kTracks = 40;
+  made::Gate gate;
+  gate.noise_rad = 0.02;
+  gate.rate_hz = 30.0;
+  gate.antennas.push_back({0.0, -1.5, 1.2});
+  TrackingOptions options = belt_options();
+  options.lane->lateral_sigma_m = 0.5;
+  double sum = 0.0;
+  int tracked = 0;
+  for (unsigned seed = 1; seed <= kTracks; ++seed) {
+    made::Rng rng(seed);
+    const made::Motion truth = made::straight({0.0, 0.1, kBeltHeight}, {1.0, 0.0, 0.0});
+    std::vector<TagRead> reads;
+    made::read_motion(gate, "tag", truth, -5.0, 5.0, rng, reads);
+    std::map<std::string, double> error;
+    for (TagRead& read : reads) {
+      double& e = error[read.antenna];
+      e = kKept * e + made::normal(rng, kSigma * std::sqrt(1.0 - kKept * kKept));
+      read.phase_rad = wrap_to_two_pi(read.phase_rad + e);
+    }
+    const TagTrack tag = tracks_of(gate, reads, options).front();
+    if (tag.verdict != TrackVerdict::kTracked) continue;
+    ++tracked;
+    const auto& points = tag.tracks.front().points;
+    const TrackPoint& middle = points[points.size() / 2];
+    const Eigen::Vector2d off = (middle.p_WT - truth(made::seconds_of(middle.stamp))).head<2>();
+    const Eigen::Matrix2d covariance = middle.covariance.topLeftCorner<2, 2>();
+    sum += off.dot(covariance.ldlt().solve(off));
+  }
+  EXPECT_GE(tracked, 30);
+  // The expectation is 2 a track if the covariances are right; ten or more if reads count as
+  // independent.
+  EXPECT_LT(sum / tracked, 3.0);
+}
+
+TEST(Tracker, PhasesThatJumpAgainAndAgainAreNoTrack) {
+  made::Gate gate;
+  gate.rate_hz = 30.0;
+  Belt belt = belt_of(3, 1.0, gate, 1);
+  for (TagRead& read : belt.reads) {
+    // Offsets change by 2 rad every second.
+    const double seconds = std::floor(made::seconds_of(read.stamp) + 1000.0);
+    read.phase_rad = wrap_to_two_pi(read.phase_rad + 2.0 * seconds);
+  }
+  const TagTrack tag = tracks_of(gate, belt.reads, belt_options()).front();
+  EXPECT_EQ(tag.verdict, TrackVerdict::kNotTracked);
+}
+
+TEST(Tracker, AnUnknownHeightWidensAcrossTheLane) {
+  // Seen from antennas of its own height, a tag 0.4 m higher looks 5 cm further away, and nothing
+  // tells one from the other but the lane.
+  made::Gate gate;
+  gate.antennas = {{-0.5, 1.5, 1.2}, {0.5, 1.5, 1.2}};
+  gate.rate_hz = 30.0;
+  TrackingOptions options = belt_options();
+  options.unknown_height_sigma_m = 0.3;
+  for (const double above : {-0.4, 0.0, 0.4}) {
+    made::Rng rng(4);
+    const made::Motion truth = made::straight({0.0, 0.0, 1.2 + above}, {1.0, 0.0, 0.0});
+    std::vector<TagRead> reads;
+    made::read_motion(gate, "tag", truth, -5.0, 5.0, rng, reads);
+    LocalizationProblem problem = made::problem_of(gate, reads, 1.2);
+    problem.heights.of_all.reset();
+    Diagnostics diagnostics;
+    const TagTrack tag = track_tags(problem, options, 1, diagnostics).front();
+    ASSERT_EQ(tag.verdict, TrackVerdict::kTracked) << tag.reason;
+    EXPECT_LT(worst_sigmas(tag.tracks.front(), truth), 3.0) << above;
+  }
+}
+
+TEST(Tracker, WhereFewParticlesLoseATagTheErrorSaysSo) {
+  const made::Gate gate;
+  TrackingOptions options = belt_options();
+  options.method = TrackMethod::kParticle;
+  options.particles = 100;
+  options.max_expected_error_m = 10.0;
+  options.min_coherence = 0.01;
+  const Belt belt = belt_of(8, 1.0, gate, 6);
+  double largest = 0.0;
+  for (const TagTrack& tag : tracks_of(gate, belt.reads, options)) {
+    ASSERT_FALSE(tag.tracks.empty()) << tag.reason;
+    const Track& track = tag.tracks.front();
+    for (const TrackPoint& point : track.points) {
+      const Eigen::Vector3d error =
+          point.p_WT - belt.truth.at(tag.tag)(made::seconds_of(point.stamp));
+      largest = std::max(largest, error.norm());
+      if (error.norm() < 0.1) continue;
+      Track here = track;
+      here.points = {point};
+      EXPECT_LT(worst_sigmas(here, belt.truth.at(tag.tag)), 5.0) << error.transpose();
+    }
+  }
+  EXPECT_GT(largest, 0.3);  // Some were lost.
+}
+
 TEST(Tracker, MirrorImagesAreGivenWhereNothingTellsThem) {
   const made::Gate gate;
   const Belt belt = belt_of(3, 1.0, gate, 1);
