@@ -133,7 +133,7 @@ def portal(options):
     with tempfile.TemporaryDirectory() as folder:
         reads = pathlib.Path(folder) / "static_log.csv"
         subprocess.run(["zstd", "-dq", folder_of_data / "static_log.csv.zst", "-o", reads], check=True)
-        for name, area in (("room told", ["--box", "0", "0", "4.572", "4.572"]), ("no area", [])):
+        for name, area in (("room known", ["--box", "0", "0", "4.572", "4.572"]), ("no area", [])):
             subprocess.run([options.tagfield, "localize", reads, *poses, "--tag-height", "0.9", *area,
                             "--out", f"{folder}/out"], check=True, capture_output=True)
             with open(f"{folder}/out/estimates.csv", encoding="utf-8") as file:
