@@ -11,6 +11,7 @@
 #include "tagfield/base/units.h"
 #include "tagfield/fit/levenberg_marquardt.h"
 #include "tagfield/fit/symmetric.h"
+#include "tagfield/fit/von_mises.h"
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/holograms/wave_slopes.h"
 #include "tagfield/localization/judgement.h"
@@ -172,14 +173,6 @@ std::vector<Maximum> maxima_near(const TagPhases& phases, const HeightModel& hei
   return distinct(phases, height, tops);
 }
 
-/// Concentration of von Mises noise whose mean cosine is `share`, within 1 % (Best and Fisher,
-/// Communications in Statistics B 10, 1981).
-double concentration_of(double share) {
-  if (share < 0.53) return share * (2.0 + share * share * (1.0 + share * share * 5.0 / 6.0));
-  if (share < 0.85) return -0.4 + 1.39 * share + 0.43 / (1.0 - share);
-  return 1.0 / (share * (share - 1.0) * (share - 3.0));
-}
-
 Eigen::ArrayXd residuals_at(const TagPhases& phases, const HeightModel& height,
                             const Maximum& maximum) {
   return residuals_of(phases, height, fit_at(phases, height, maximum.place));
@@ -194,8 +187,8 @@ Unlikelihood by_coherence(const TagPhases& phases, const Maximum& best,
                           const Eigen::ArrayXd& residuals) {
   const double share =
       best.coherence / static_cast<double>(std::max<Eigen::Index>(residuals.size(), 1));
-  const double per_wave =
-      concentration_of(std::clamp(share, 0.0, 0.99)) / correlation_factor(phases.spans, residuals);
+  const double per_wave = von_mises_concentration(std::clamp(share, 0.0, 0.99)) /
+                          correlation_factor(phases.spans, residuals);
   return [per_wave, coherence = best.coherence](const Maximum& maximum) {
     return per_wave * (coherence - maximum.coherence);
   };

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tagfield/localization/judgement.h"
+#include "tagfield/localization/phase_curves/phase_following.h"
 #include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {

@@ -89,5 +89,35 @@ TEST(SpreadStarts, LieAlongTheWeakDirection) {
   EXPECT_EQ(spread_starts(of.phases, of.height, of.fit, covariance).size(), 1U);
 }
 
+/// Largest change of a range, less what all share, between neighbouring starts [wavelengths].
+double largest_change(const Fitted& of, const std::vector<PositionVector>& starts, bool less_mean) {
+  const auto ranges = [&](const PositionVector& start) {
+    Eigen::ArrayXd r(of.phases.size());
+    for (Eigen::Index i = 0; i < r.size(); ++i) {
+      r[i] = range_to(of.height, start, of.phases.x[i], of.phases.y[i], of.phases.z[i]).r;
+    }
+    return r;
+  };
+  Eigen::ArrayXd change = ranges(starts[1]) - ranges(starts[0]);
+  if (less_mean) change -= 0.5 * (change.maxCoeff() + change.minCoeff());
+  return change.abs().maxCoeff() / (2.0 * of.phases.spans.front().cycle_m);
+}
+
+TEST(SpreadStarts, AreAnEighthOfAWavelengthApart) {
+  made::Rng rng(3);
+  const made::Path path = made::straight(3.0, 0.02);
+  Fitted of = fitted(made::hall(path, path, 1, {}, rng));
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  covariance(0, 0) = 0.09;
+  covariance(1, 1) = 1e-6;
+  // An unknown offset takes what all ranges share; a known one leaves all of it.
+  const auto unknown = spread_starts(of.phases, of.height, of.fit, covariance);
+  EXPECT_NEAR(largest_change(of, unknown, true), 0.125, 0.02);
+  of.phases.spans.front().offset_known = true;
+  const auto known = spread_starts(of.phases, of.height, of.fit, covariance);
+  EXPECT_NEAR(largest_change(of, known, false), 0.125, 0.02);
+  EXPECT_GT(known.size(), unknown.size());
+}
+
 }  // namespace
 }  // namespace tagfield

@@ -203,7 +203,7 @@ TEST(Joint, ReferenceTagsFixTheWorld) {
   EXPECT_LT(with.mean(), 0.3 * without.mean());
 }
 
-TEST(Joint, SaysThatAStraightWayIsAmbiguous) {
+TEST(Joint, SaysThatAStraightPathIsAmbiguous) {
   for (const double pose_m : {0.0, 0.01}) {
     made::Noise noise;
     noise.pose_m = pose_m;
@@ -274,6 +274,29 @@ TEST(Joint, GivesCorrectedPoses) {
     after += (result.corrected_poses[i].X_WA.translation - path[i]).squaredNorm();
   }
   EXPECT_LT(after, 0.5 * before);
+}
+
+TEST(Joint, RefusesLateReads) {
+  made::Rng rng(2);
+  const made::Path path = made::s_curve(14.0, 0.02);
+  for (const bool twice : {false, true}) {
+    made::Hall hall = made::hall(path, path, 8, {}, rng);
+    made::make_late(hall, 0.4);
+    hall.problem.pose_error.reset();
+    // A log may give a pose twice, at one stamp.
+    Trajectory& track = hall.problem.tracks.at("a").X_WA;
+    if (twice) {
+      const StampedPose third = track[2];
+      track.insert(track.begin() + 2, {third, third});
+    }
+    Diagnostics diagnostics;
+    const LocalizationResult result = joint_method().locate(hall.problem, 2, diagnostics);
+    for (const TagEstimate& estimate : result.estimates) {
+      EXPECT_EQ(estimate.verdict, Verdict::kNotLocated);
+      EXPECT_NE(estimate.reason.find("as if stamps of reads were 0.4"), std::string::npos)
+          << estimate.reason;
+    }
+  }
 }
 
 TEST(Joint, TakesTagsThatTellNothing) {

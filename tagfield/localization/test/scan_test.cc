@@ -109,6 +109,20 @@ TEST(ScanField, IsThatOfTheAntennaWithMostPlacesWhateverOthersStoodStill) {
   EXPECT_NEAR(scan.end_m - scan.begin_m, 0.98, 1e-9);
 }
 
+TEST(ScanField, IsThatOfTheLongestSectionWithoutAGap) {
+  // A gap of 12 cm, over λ/4 = 8.7 cm; one of 8 cm is none.
+  Rng rng(1);
+  const std::vector<PhaseSample> all = scanned({0.4, 0.7}, {{1.0, 1.0}, 0.3}, 0.0, rng).at("a");
+  for (const auto& [missing, left, end_m] : {std::tuple(5, 30, 0.58), std::tuple(3, 47, 0.98)}) {
+    std::vector<PhaseSample> some = all;
+    some.erase(some.begin() + 30, some.begin() + 30 + missing);
+    const ScanField scan = scan_field({}, "t", {{"a", some}});
+    ASSERT_EQ(scan.why_not, "");
+    EXPECT_EQ(scan.field.size(), left);
+    EXPECT_NEAR(scan.end_m - scan.begin_m, end_m, 1e-9);
+  }
+}
+
 TEST(ScanField, SaysWhyThereIsNone) {
   Rng rng(1);
   LocalizationProblem problem;

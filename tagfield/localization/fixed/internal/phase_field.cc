@@ -80,7 +80,6 @@ PhaseField likeliest_field(const FixedScene& scene, const LocalizationProblem& p
   for (const std::size_t i : some) {
     const Eigen::ArrayXd logs = log_strength(scene.tags[i].grid, scene.law.of_tag[i], options);
     weights.push_back((logs - logs.maxCoeff()).exp());
-    weights.back() /= weights.back().sum();
   }
   std::vector<PhaseField> fields;
   for (const double diffuse : {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 0.9}) {
