@@ -119,5 +119,8 @@ function(tagfield_warnings target)
   endif()
   if(CMAKE_UNITY_BUILD)
     target_compile_options(${target} PRIVATE ${tagfield_unity_options})
+  else()
+    # What a unity build takes is taken without one, too.
+    target_compile_options(${target} PRIVATE -Wno-shadow -Wshadow=local)
   endif()
 endfunction()

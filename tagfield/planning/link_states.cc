@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/units.h"
 #include "tagfield/planning/local_link.h"
 
 namespace tagfield {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tagfield/localization/judgement.h"
 #include "tagfield/tracking/tracker.h"
@@ -43,19 +44,27 @@ std::optional<Passing> passing_of(const Track& track, const PassingLine& line) {
 }
 
 std::optional<Passing> nearest_of(const Track& track, const Eigen::Vector3d& place) {
-  const auto zero = first_zero(
-      track, [&](const TrackPoint& point) { return (point.p_WT - place).dot(point.v_WT); });
-  if (!zero) return std::nullopt;
-  const TrackPoint& point = track.points[zero->first];
-  const double square = point.v_WT.squaredNorm();
-  if (square <= 0.0) return std::nullopt;
-  const TrackPoint& before = track.points[zero->first - 1];
-  const Eigen::Vector3d p_WT = before.p_WT + zero->second * (point.p_WT - before.p_WT);
-  Vector6d slope;
-  slope << point.v_WT, p_WT - place;
-  slope /= square;
-  return Passing{"", stamp_between(track.points[zero->first - 1], point, zero->second),
-                 std::sqrt(std::max(0.0, slope.dot(point.covariance * slope)))};
+  std::optional<Passing> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  // A tag that stands still seems to come and go by its noise.
+  for (std::size_t i = 1; i < track.points.size(); ++i) {
+    const TrackPoint& before = track.points[i - 1];
+    const TrackPoint& point = track.points[i];
+    const double leaves = (point.p_WT - place).dot(point.v_WT);
+    const double left_before = (before.p_WT - place).dot(before.v_WT);
+    const double square = point.v_WT.squaredNorm();
+    if (left_before >= 0.0 || leaves < 0.0 || square <= 0.0) continue;
+    const double part = left_before / (left_before - leaves);
+    const Eigen::Vector3d p_WT = before.p_WT + part * (point.p_WT - before.p_WT);
+    if ((p_WT - place).norm() >= least) continue;
+    least = (p_WT - place).norm();
+    Vector6d slope;
+    slope << point.v_WT, p_WT - place;
+    slope /= square;
+    nearest = Passing{"", stamp_between(before, point, part),
+                      std::sqrt(std::max(0.0, slope.dot(point.covariance * slope)))};
+  }
+  return nearest;
 }
 
 std::vector<PassingOrder> passing_orders(const LocalizationProblem& problem,

@@ -73,10 +73,10 @@ TagTrack judged(const TrackingOptions& options, const Pass& pass, const TracksFo
                                    pass.reads.size(), pass.groups));
   }
   if (found.demand == Demand::kTooMuch) {
-    return not_tracked(result, fmt::format("it changes its motion too much: an acceleration noise "
-                                           "of {:.3g} m/s²/√Hz explains its phases better than up "
-                                           "to 30 times the {:.3g} of the options",
-                                           found.demanded_noise, options.acceleration_noise));
+    return not_tracked(result, fmt::format("it changes its motion too much: its phases are only "
+                                           "explained by an acceleration noise of {:.3g} "
+                                           "m/s²/√Hz; if tags do move like this, state it",
+                                           found.demanded_noise));
   }
   if (best.jumps > pass.antennas.size()) {
     return not_tracked(result, fmt::format("its phases jump {} times, more than once an antenna, "

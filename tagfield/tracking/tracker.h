@@ -26,6 +26,9 @@ struct Lane {
   double lateral_sigma_m = 0.1;                     ///< Of a tag's lateral position.
   double heading_sigma_rad = 0.02;                  ///< Of a tag's direction.
   bool bidirectional = false;                       ///< Whether tags may also move backwards.
+  /// Process noise along the lane, as of a belt that starts and stops, if it is more than that of
+  /// the options [m/s²/√Hz].
+  double acceleration_noise = 0.0;
 };
 
 /// How a track is smoothed once its start is found.
@@ -43,7 +46,8 @@ struct TrackingOptions {
   double max_speed_m_s = 3.0;
   /// Process noise: square root of the acceleration's power density [m/s²/√Hz], in x and in y. The
   /// velocity drifts by this times √t. The least that is assumed: where the phases of a tag demand
-  /// more, up to 30 times as much is taken, and its covariances are four times as large.
+  /// more, up to 30 times as much is taken, or 100 times along a lane, and the covariances are
+  /// four times as large.
   double acceleration_noise = 0.005;
   double height_sigma_m = 0.005;        ///< Of a known height.
   double unknown_height_sigma_m = 0.5;  ///< Of an unknown height.
@@ -141,8 +145,9 @@ struct PassingOrder {
 /// P n)/|n·v|, with n the normal of the line and P the position's covariance.
 std::optional<Passing> passing_of(const Track& track, const PassingLine& line);
 
-/// Time at which the track is closest to a point a: (p − a)·v = 0; σ_t follows from δt = −(v·δp +
-/// (p − a)·δv)/v². None if that is at the start or end of the track.
+/// Time at which the track is closest to a point a: (p − a)·v = 0, of several such times the one
+/// with the least distance; σ_t follows from δt = −(v·δp + (p − a)·δv)/v². None if it only comes
+/// nearer or only leaves.
 std::optional<Passing> nearest_of(const Track& track, const Eigen::Vector3d& place);
 
 /// Passing orders of all unambiguously tracked tags: at the line, if given, then at each stationary

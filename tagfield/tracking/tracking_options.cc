@@ -16,6 +16,9 @@ void check(const Lane& lane) {
   }
   require_positive("the lane's lateral sigma", lane.lateral_sigma_m);
   require_positive("the lane's heading sigma", lane.heading_sigma_rad);
+  if (!(lane.acceleration_noise >= 0.0) || !std::isfinite(lane.acceleration_noise)) {
+    throw Error("the lane's acceleration noise must be at least 0");
+  }
 }
 
 }  // namespace

@@ -105,6 +105,7 @@ Lane lane_of(YamlMap map) {
   lane.heading_sigma_rad =
       radians(map.number("heading_sigma_deg", lane.heading_sigma_rad / radians(1.0), kPositive));
   lane.bidirectional = map.boolean("bidirectional", lane.bidirectional);
+  lane.acceleration_noise = map.number("acceleration_noise", lane.acceleration_noise, kNotNegative);
   map.finish();
   return lane;
 }

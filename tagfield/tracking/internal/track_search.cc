@@ -18,12 +18,13 @@ constexpr std::size_t kMaxHypotheses = 6;
 /// Hypotheses with a log-likelihood lower by more than this are dropped.
 constexpr double kHopeless = 60.0;
 /// Tracks within this log-likelihood of the best cannot be distinguished from it.
-constexpr double kUntold = 8.0;
+constexpr double kIndistinguishable = 8.0;
 constexpr double kSamePosition = 0.1;  ///< Tracks within this of each other are the same [m].
 
-/// Multiples of the options' acceleration noise that are tried; the last only shows that the others
-/// are too little.
-constexpr double kMultiples[] = {1.0, 3.0, 10.0, 30.0, 100.0};
+/// Multiples of the stated acceleration noise that are tried; the last only shows that the others
+/// are too little. Along a lane there is less to confuse a motion with.
+constexpr double kMultiples[] = {1.0, 1.7, 3.0, 10.0, 30.0, 100.0};
+constexpr double kMultiplesAlongLane[] = {1.0, 1.7, 3.0, 10.0, 30.0, 100.0, 300.0};
 constexpr double kLeastRaised = 0.001;  ///< Multiples are of at least this [m/s²/√Hz].
 /// Acceleration noise is excluded if another is e³ = 20 times as likely.
 constexpr double kExcluded = 3.0;
@@ -112,7 +113,7 @@ std::vector<Explanation> rivals(std::vector<Explanation> explanations) {
   for (Explanation& one : explanations) {
     if (!kept.empty()) {
       const Track& best = kept.front().track;
-      const double least = best.log_likelihood - kUntold * best.correlation_factor;
+      const double least = best.log_likelihood - kIndistinguishable * best.correlation_factor;
       if (one.track.log_likelihood < least) break;
     }
     const bool known = std::any_of(kept.begin(), kept.end(), [&](const Explanation& other) {
@@ -167,8 +168,28 @@ void allow_for_height(const Pass& pass, const TrackingOptions& options, Explanat
 }
 
 TrackingOptions with_noise(TrackingOptions options, double acceleration_noise) {
-  options.acceleration_noise = acceleration_noise;
+  if (options.lane) {
+    options.lane->acceleration_noise = acceleration_noise;
+  } else {
+    options.acceleration_noise = acceleration_noise;
+  }
   return options;
+}
+
+double stated_noise(const TrackingOptions& options) {
+  const double along = options.lane ? options.lane->acceleration_noise : 0.0;
+  return std::max(options.acceleration_noise, along);
+}
+
+std::vector<double> noises_to_try(const TrackingOptions& options) {
+  const double stated = stated_noise(options);
+  std::vector<double> noises =
+      options.lane
+          ? std::vector<double>(std::begin(kMultiplesAlongLane), std::end(kMultiplesAlongLane))
+          : std::vector<double>(std::begin(kMultiples), std::end(kMultiples));
+  for (double& noise : noises) noise *= std::max(stated, kLeastRaised);
+  noises.front() = stated;
+  return noises;
 }
 
 const Level& likeliest(const std::vector<Level>& levels) {
@@ -189,10 +210,7 @@ bool is_enough(const std::vector<Level>& levels) {
 std::vector<Level> levels_of(const Pass& pass, const TrackingOptions& options,
                              const std::vector<LineHypothesis>& hypotheses) {
   std::vector<Level> levels;
-  for (const double multiple : kMultiples) {
-    const double noise = multiple > 1.0
-                             ? multiple * std::max(options.acceleration_noise, kLeastRaised)
-                             : options.acceleration_noise;
+  for (const double noise : noises_to_try(options)) {
     std::vector<Explanation> explanations =
         explanations_of(pass, with_noise(options, noise), hypotheses, smoothed);
     if (explanations.empty()) continue;
@@ -210,10 +228,9 @@ Level most_noise(const std::vector<Level>& levels) {
 }
 
 Demand demand_of(const TrackingOptions& options, const std::vector<Level>& levels, double noise) {
-  const double most = kMultiples[std::size(kMultiples) - 1];
-  if (noise >= most * std::max(options.acceleration_noise, kLeastRaised)) return Demand::kTooMuch;
+  if (noise >= noises_to_try(options).back()) return Demand::kTooMuch;
   const bool is_excluded =
-      levels.front().noise > options.acceleration_noise ||
+      levels.front().noise > stated_noise(options) ||
       levels.front().log_evidence() < likeliest(levels).log_evidence() - kExcluded;
   return is_excluded ? Demand::kMore : Demand::kNone;
 }

@@ -24,9 +24,10 @@ struct TracksFound {
 };
 
 /// Smooths the straight motions of search_lines() with the acceleration noise of the options and
-/// with more, and takes the largest noise that the reads' evidence does not exclude. Where it
-/// excludes the options' own, the covariances are multiplied by four: acceleration and slow errors
-/// of the phases, as by reflections, cannot be told apart, and the latter shift positions, too.
+/// with more, along the lane if there is one, and takes the largest noise that the reads' evidence
+/// does not exclude. Where it excludes the options' own, the covariances are multiplied by four:
+/// acceleration and slow errors of the phases, as by reflections, cannot be told apart, and the
+/// latter shift positions, too.
 TracksFound find_tracks(const Pass& pass, const TrackingOptions& options);
 
 /// Lateral deviation of a track from the lane, halfway [sigmas]; 0 without a lane.

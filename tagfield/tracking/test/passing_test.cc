@@ -55,6 +55,23 @@ TEST(Passing, NearestIsAtTheFootOfThePerpendicular) {
   EXPECT_NEAR(passing->sigma_s, 0.005, 1e-9);
 }
 
+TEST(Passing, NearestIsWhereATagPassesNotWhereItStood) {
+  // Stands for a second at x = −1, where its velocity is noise, then passes.
+  Track track;
+  for (int i = 0; i < 10; ++i) {
+    TrackPoint point;
+    point.stamp = time_from_seconds(9.0 + 0.1 * i);
+    point.p_WT = {-1.0, 0.5, 0.8};
+    point.v_WT = {i % 2 == 0 ? 1e-3 : -1e-3, 0.0, 0.0};
+    track.points.push_back(point);
+  }
+  const Track passes = belt_track();
+  track.points.insert(track.points.end(), passes.points.begin(), passes.points.end());
+  const auto passing = nearest_of(track, {0.41, 2.0, 1.2});
+  ASSERT_TRUE(passing);
+  EXPECT_NEAR(to_seconds(passing->stamp), 10.705, 1e-9);
+}
+
 TEST(Passing, ProbabilityOfAnOrder) {
   const Passing first{"a", time_from_seconds(1.0), 0.03};
   const Passing second{"b", time_from_seconds(1.05), 0.04};

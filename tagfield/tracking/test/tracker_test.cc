@@ -221,11 +221,40 @@ TEST(Tracker, TagsThatSpeedUpAreTrackedWithLargerErrors) {
     EXPECT_LT(worst_sigmas(tag.tracks.front(), truth), 5.0);
     EXPECT_LT(along_error(tag.tracks.front(), truth), 0.03);
     TrackingOptions stated = belt_options();
-    stated.acceleration_noise = tag.tracks.front().acceleration_noise;
+    stated.lane->acceleration_noise = tag.tracks.front().acceleration_noise;
     const TagTrack as_stated = tracks_of(gate, reads, stated).front();
     ASSERT_EQ(as_stated.verdict, TrackVerdict::kTracked) << as_stated.reason;
     EXPECT_EQ(as_stated.reason, "");
     EXPECT_LT(as_stated.tracks.front().expected_error_m, tag.tracks.front().expected_error_m);
+  }
+}
+
+/// Brakes from 1 m/s to 0 in half a second at t = −0.5, and starts again in as much at t = 2.
+Eigen::Vector3d of_a_belt_that_stops(double t) {
+  const double braking = std::clamp(t + 0.5, 0.0, 0.5);
+  const double starting = std::clamp(t - 2.0, 0.0, 0.5);
+  const double x = std::min(t + 0.5, 0.0) + braking - braking * braking + starting * starting +
+                   std::max(t - 2.5, 0.0);
+  return {x, 0.02, kBeltHeight};
+}
+
+TEST(Tracker, ABeltMayStop) {
+  made::Gate gate;
+  gate.rate_hz = 30.0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    made::Rng rng(seed);
+    std::vector<TagRead> reads;
+    made::read_motion(gate, "tag", of_a_belt_that_stops, -5.0, 8.0, rng, reads);
+    const TagTrack tag = tracks_of(gate, reads, belt_options()).front();
+    ASSERT_EQ(tag.verdict, TrackVerdict::kTracked) << tag.reason;
+    EXPECT_LT(along_error(tag.tracks.front(), of_a_belt_that_stops), 0.02);
+    EXPECT_LT(worst_sigmas(tag.tracks.front(), of_a_belt_that_stops), 5.0);
+    TrackingOptions stated = belt_options();
+    stated.lane->acceleration_noise = 0.5;
+    const TagTrack as_stated = tracks_of(gate, reads, stated).front();
+    ASSERT_EQ(as_stated.verdict, TrackVerdict::kTracked) << as_stated.reason;
+    EXPECT_EQ(as_stated.reason, "");
+    EXPECT_LT(along_error(as_stated.tracks.front(), of_a_belt_that_stops), 0.02);
   }
 }
 
@@ -235,11 +264,12 @@ TEST(Tracker, TagsThatStopAreNotPutElsewhere) {
   };
   made::Gate gate;
   gate.rate_hz = 30.0;
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  gate.antennas.push_back({0.0, -1.5, 1.2});
+  for (unsigned seed = 1; seed <= 4; ++seed) {
     made::Rng rng(seed);
     std::vector<TagRead> reads;
     made::read_motion(gate, "tag", truth, -6.0, 9.0, rng, reads);
-    const TagTrack tag = tracks_of(gate, reads, belt_options()).front();
+    const TagTrack tag = tracks_of(gate, reads, {}).front();
     if (tag.verdict == TrackVerdict::kNotTracked) {
       EXPECT_EQ(tag.reason.rfind("cannot track: ", 0), 0U);
     } else {
