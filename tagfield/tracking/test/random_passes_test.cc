@@ -250,7 +250,7 @@ TEST(RandomPasses, BesideAReflectingFloorAreRarelyTrackedWrongly) {
 TEST(RandomPasses, OtherMethodsAreRarelyWrongEither) {
   for (const TrackMethod method : {TrackMethod::kUkf, TrackMethod::kParticle}) {
     const TrackClaims claims =
-        random_claims(to_string(method), method, {Disturbance::kNone}, count_of_passes() / 8);
+        random_claims(to_string(method), method, {Disturbance::kNone}, count_of_passes() / 12);
     EXPECT_LE(claims.false_ones, 1 + claims.tracked / 10);
   }
 }
