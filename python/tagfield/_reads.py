@@ -140,7 +140,7 @@ def track(reads: Any, poses: Any, *, scenario: Scenario | None = None, threads: 
     bidirectional: whether tags can move in both directions along the lane.
     line: x, y [m], heading [deg] of the line at which the order of passing is reported.
     speed_m_s: minimum and maximum speed.
-    acceleration_noise: in m/s²/√Hz.
+    acceleration_noise: process noise in m/s²/√Hz; where phases demand more, more is tried, with doubled errors.
     tag_height_m, tag_heights_m, offset_rad, offsets_rad: see :func:`localize`.
     """
     _refuse_unknown("track", known, _TRACK)
@@ -196,8 +196,8 @@ _KNOWN = _HEIGHTS | {"side", "box_m", "reference_tags", "pose_sigma_m", "pose_ya
 _TRACK = _HEIGHTS - {"height"} | {"method", "lane", "bidirectional", "line", "speed_m_s", "acceleration_noise"}
 
 
-def _refuse_unknown(function: str, told: Mapping[str, Any], known: set[str]) -> None:
-    for key in told:
+def _refuse_unknown(function: str, given: Mapping[str, Any], known: set[str]) -> None:
+    for key in given:
         if key not in known:
             raise TypeError(f"{function}() has no keyword '{key}'; these are: {', '.join(sorted(known))}")
 

@@ -158,31 +158,31 @@ class Simulation:
         self.scenario = scenario
         self.robot = robot
         self._core = _core.Simulation(scenario._loaded, seed, outlets, robot, policy)
-        self._told: dict[str, Table] = self._core.take()
+        self._taken: dict[str, Table] = self._core.take()
 
     def step(self, count: int = 1) -> Table:
         """Runs `count` time steps and returns their reads as a table, which may be empty."""
         self._core.step(count)
-        self._told = self._core.take()
-        return self._told["reads"]
+        self._taken = self._core.take()
+        return self._taken["reads"]
 
     def run_until(self, time_s: float) -> Table:
         """Steps to `time_s` or to the end, and returns the reads of these steps."""
         while self.now_s < time_s and not self.finished:
             self._core.step(1)
-        self._told = self._core.take()
-        return self._told["reads"]
+        self._taken = self._core.take()
+        return self._taken["reads"]
 
     @property
     def poses(self) -> Table:
         """Believed poses of the antennas during the last step() or run_until(), as in Run.poses."""
-        return self._told["poses"]
+        return self._taken["poses"]
 
     @property
     def truth(self) -> Truth:
         """Ground truth of the last step() or run_until()."""
-        told = self._told
-        return Truth(told["true_antennas"], told["true_robots"], told["true_tags"], told["true_distances"])
+        taken = self._taken
+        return Truth(taken["true_antennas"], taken["true_robots"], taken["true_tags"], taken["true_distances"])
 
     def drive(self, forward_m_s: float, turn_rad_s: float) -> None:
         """Commands the robot's forward velocity and turn rate from now on; its limits apply."""
