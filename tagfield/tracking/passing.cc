@@ -14,33 +14,23 @@ Time stamp_between(const TrackPoint& a, const TrackPoint& b, double part) {
   return a.stamp + duration_from_seconds(part * to_seconds(b.stamp - a.stamp));
 }
 
-/// First sign change of `height`(point), if any: index of the point after it, and fraction of the
-/// interval.
-template <typename Height>
-std::optional<std::pair<std::size_t, double>> first_zero(const Track& track, const Height& height) {
-  for (std::size_t i = 1; i < track.points.size(); ++i) {
-    const double before = height(track.points[i - 1]);
-    const double after = height(track.points[i]);
-    if ((before < 0.0) == (after < 0.0)) continue;
-    return std::pair(i, before / (before - after));
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<Passing> passing_of(const Track& track, const PassingLine& line) {
   const Eigen::Vector2d across(-std::sin(line.heading_rad), std::cos(line.heading_rad));
-  const auto zero = first_zero(track, [&](const TrackPoint& point) {
-    return across.dot(point.p_WT.head<2>() - line.point);
-  });
-  if (!zero) return std::nullopt;
-  const TrackPoint& point = track.points[zero->first];
-  const double speed = std::abs(across.dot(point.v_WT.head<2>()));
-  const double variance = across.dot(point.covariance.topLeftCorner<2, 2>() * across);
-  if (speed <= 0.0) return std::nullopt;
-  return Passing{"", stamp_between(track.points[zero->first - 1], point, zero->second),
-                 std::sqrt(std::max(0.0, variance)) / speed};
+  for (std::size_t i = 1; i < track.points.size(); ++i) {
+    const TrackPoint& before = track.points[i - 1];
+    const TrackPoint& point = track.points[i];
+    const double away_before = across.dot(before.p_WT.head<2>() - line.point);
+    const double away = across.dot(point.p_WT.head<2>() - line.point);
+    if ((away_before < 0.0) == (away < 0.0)) continue;
+    const double speed = std::abs(across.dot(point.v_WT.head<2>()));
+    if (speed <= 0.0) return std::nullopt;
+    const double variance = across.dot(point.covariance.topLeftCorner<2, 2>() * across);
+    return Passing{"", stamp_between(before, point, away_before / (away_before - away)),
+                   std::sqrt(std::max(0.0, variance)) / speed};
+  }
+  return std::nullopt;
 }
 
 std::optional<Passing> nearest_of(const Track& track, const Eigen::Vector3d& place) {

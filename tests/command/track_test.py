@@ -69,6 +69,16 @@ def reads_of_a_run_give_the_same_tracks(context):
 
 
 @case
+def a_belt_that_may_speed_up_leaves_larger_errors(context):
+    scenario = context.shipped("conveyor")
+    errors = []
+    for noise in (0, 0.5):
+        folder = track(context, scenario, "--set", f"tracking.lane.acceleration_noise={noise}", name=f"noise_{noise}")
+        errors.append([float(row["expected_error_m"]) for row in read_csv(folder / "verdicts.csv")])
+    check(all(after > before for before, after in zip(*errors)), f"expected errors {errors}")
+
+
+@case
 def reads_that_do_not_fit_in_memory(context):
     """In parts on disk: identical tracks, and no leftovers."""
     scenario = context.shipped("conveyor")
@@ -164,6 +174,7 @@ def bad_input_is_told_in_one_line(context):
             ((reads, "--poses", poses, "--method", "kalman"), "kalman"),
             ((context.shipped("conveyor"), "--poses", poses), "can only be used with reads"),
             ((context.shipped("conveyor"), "--set", "tracking.lane.width=1"), "width"),
+            ((context.shipped("conveyor"), "--set", "tracking.lane.acceleration_noise=-1"), "acceleration_noise"),
             ((context.shipped("conveyor"), "--set", "tracking.reach_m=51"), "at most 50"),
             ((context.shipped("conveyor"), "--set", "tracking.particles=500"), "not used by ekf"),
             ((context.shipped("conveyor"), "--set", "tracking.method=kalman"), "tracking.method")):

@@ -401,28 +401,7 @@ Track track_of(const Pass& pass, const Forward& forward, const Smoothed& smoothe
   return track;
 }
 
-/// Power density of the acceleration in x and y [m²/s³].
-Eigen::Matrix2d acceleration_density(const TrackingOptions& options) {
-  const double all = options.acceleration_noise * options.acceleration_noise;
-  Eigen::Matrix2d density = all * Eigen::Matrix2d::Identity();
-  if (!options.lane) return density;
-  const Lane& lane = *options.lane;
-  const Eigen::Vector2d along(std::cos(lane.heading_rad), std::sin(lane.heading_rad));
-  const double more = lane.acceleration_noise * lane.acceleration_noise - all;
-  if (more > 0.0) density += more * along * along.transpose();
-  return density;
-}
-
 }  // namespace
-
-Matrix6d process_noise(const TrackingOptions& options, double time_s) {
-  const Eigen::Matrix2d density = acceleration_density(options);
-  Matrix6d noise = Matrix6d::Zero();
-  noise.block<2, 2>(0, 0) = density * (time_s * time_s * time_s / 3.0);
-  noise.block<2, 2>(0, 3) = noise.block<2, 2>(3, 0) = density * (time_s * time_s / 2.0);
-  noise.block<2, 2>(3, 3) = density * time_s;
-  return noise;
-}
 
 SmootherStart start_from(const Pass& pass, const TrackingOptions& options,
                          const LineHypothesis& hypothesis, double wider) {
@@ -493,11 +472,7 @@ Track smooth(const Pass& pass, const TrackingOptions& options, Linearization lin
   track.log_evidence = log_evidence;
   track.log_likelihood = log_likelihood;
   track.correlation_factor = factor;
-  track.acceleration_noise = options.acceleration_noise;
-  if (options.lane) {
-    track.acceleration_noise =
-        std::max(options.acceleration_noise, options.lane->acceleration_noise);
-  }
+  track.acceleration_noise = largest_acceleration_noise(options);
   track.jumps = count_fresh(slots) - count_fresh(slots_of(pass));
   return track;
 }

@@ -11,6 +11,7 @@
 
 #include "tagfield/tracking/internal/line_search.h"
 #include "tagfield/tracking/internal/pass.h"
+#include "tagfield/tracking/internal/process_noise.h"
 #include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
@@ -48,8 +49,5 @@ SmootherStart start_from(const Pass& pass, const TrackingOptions& options,
 /// Square root of the horizontal covariance's trace at the track's closest approach to an antenna
 /// of the pass [m].
 double expected_error(const Pass& pass, const Track& track);
-
-/// Covariance that white acceleration in x and y adds to (p, v) in `time_s`.
-Matrix6d process_noise(const TrackingOptions& options, double time_s);
 
 }  // namespace tagfield

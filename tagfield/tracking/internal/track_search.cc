@@ -21,10 +21,10 @@ constexpr double kHopeless = 60.0;
 constexpr double kIndistinguishable = 8.0;
 constexpr double kSamePosition = 0.1;  ///< Tracks within this of each other are the same [m].
 
-/// Multiples of the stated acceleration noise that are tried; the last only shows that the others
-/// are too little. Along a lane there is less to confuse a motion with.
-constexpr double kMultiples[] = {1.0, 1.7, 3.0, 10.0, 30.0, 100.0};
-constexpr double kMultiplesAlongLane[] = {1.0, 1.7, 3.0, 10.0, 30.0, 100.0, 300.0};
+/// Multiples of the stated acceleration noise that are tried: all along a lane, where there is less
+/// to confuse a motion with, otherwise all but the last. The last that is tried only shows that the
+/// others are too little.
+constexpr double kMultiples[] = {1.0, 1.7, 3.0, 10.0, 30.0, 100.0, 300.0};
 constexpr double kLeastRaised = 0.001;  ///< Multiples are of at least this [m/s²/√Hz].
 /// Acceleration noise is excluded if another is e³ = 20 times as likely.
 constexpr double kExcluded = 3.0;
@@ -176,17 +176,10 @@ TrackingOptions with_noise(TrackingOptions options, double acceleration_noise) {
   return options;
 }
 
-double stated_noise(const TrackingOptions& options) {
-  const double along = options.lane ? options.lane->acceleration_noise : 0.0;
-  return std::max(options.acceleration_noise, along);
-}
-
 std::vector<double> noises_to_try(const TrackingOptions& options) {
-  const double stated = stated_noise(options);
-  std::vector<double> noises =
-      options.lane
-          ? std::vector<double>(std::begin(kMultiplesAlongLane), std::end(kMultiplesAlongLane))
-          : std::vector<double>(std::begin(kMultiples), std::end(kMultiples));
+  const double stated = largest_acceleration_noise(options);
+  std::vector<double> noises(std::begin(kMultiples), std::end(kMultiples));
+  if (!options.lane) noises.pop_back();
   for (double& noise : noises) noise *= std::max(stated, kLeastRaised);
   noises.front() = stated;
   return noises;
@@ -230,7 +223,7 @@ Level most_noise(const std::vector<Level>& levels) {
 Demand demand_of(const TrackingOptions& options, const std::vector<Level>& levels, double noise) {
   if (noise >= noises_to_try(options).back()) return Demand::kTooMuch;
   const bool is_excluded =
-      levels.front().noise > stated_noise(options) ||
+      levels.front().noise > largest_acceleration_noise(options) ||
       levels.front().log_evidence() < likeliest(levels).log_evidence() - kExcluded;
   return is_excluded ? Demand::kMore : Demand::kNone;
 }

@@ -312,22 +312,41 @@ TEST(Tracker, SlowPhaseErrorsWidenTheCovariances) {
     sum += off.dot(covariance.ldlt().solve(off));
   }
   EXPECT_GE(tracked, 30);
-  // The expectation is 2 a track if the covariances are right; ten or more if reads count as
-  // independent.
+  // The expectation is 2 a track if the covariances are right. Counted as independent reads it
+  // was 33.
   EXPECT_LT(sum / tracked, 3.0);
+}
+
+/// Adds `jump_rad` to the phases of an antenna every `period_s`, of each at other times.
+void make_jump(double jump_rad, double period_s, double apart_s, std::vector<TagRead>& reads) {
+  for (TagRead& read : reads) {
+    const int antenna = read.antenna.back() - '0';
+    const double jumps =
+        std::floor((made::seconds_of(read.stamp) + 100.0 + apart_s * antenna) / period_s);
+    read.phase_rad = wrap_to_two_pi(read.phase_rad + jump_rad * jumps);
+  }
 }
 
 TEST(Tracker, PhasesThatJumpAgainAndAgainAreNoTrack) {
   made::Gate gate;
   gate.rate_hz = 30.0;
+  gate.antennas.push_back({0.0, -1.5, 1.2});
   Belt belt = belt_of(3, 1.0, gate, 1);
-  for (TagRead& read : belt.reads) {
-    // Offsets change by 2 rad every second.
-    const double seconds = std::floor(made::seconds_of(read.stamp) + 1000.0);
-    read.phase_rad = wrap_to_two_pi(read.phase_rad + 2.0 * seconds);
-  }
+  make_jump(2.6, 2.5, 0.37, belt.reads);
   const TagTrack tag = tracks_of(gate, belt.reads, belt_options()).front();
   EXPECT_EQ(tag.verdict, TrackVerdict::kNotTracked);
+  EXPECT_EQ(tag.reason.rfind("cannot track: its phases jump ", 0), 0U) << tag.reason;
+}
+
+TEST(Tracker, WhatOnlyViolentMotionExplainsIsNoTrack) {
+  made::Gate gate;
+  gate.rate_hz = 30.0;
+  Belt belt = belt_of(3, 1.0, gate, 1);
+  make_jump(2.0, 1.0, 0.0, belt.reads);
+  const TagTrack tag = tracks_of(gate, belt.reads, belt_options()).front();
+  EXPECT_EQ(tag.verdict, TrackVerdict::kNotTracked);
+  EXPECT_EQ(tag.reason.rfind("cannot track: it changes its motion too much: ", 0), 0U)
+      << tag.reason;
 }
 
 TEST(Tracker, AnUnknownHeightWidensAcrossTheLane) {
