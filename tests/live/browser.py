@@ -165,11 +165,11 @@ class Browser:
                 "if (!one) throw new Error(`no button ${arguments[1]}`); one.click();", part, text)
 
     def still(self):
-        """Waits until no more frames are drawn."""
-        before = -1
+        """Waits until no more frames are drawn, nor any is pending: a busy machine draws one seconds later."""
+        before = None
         for _ in range(100):
-            now = self.ask("view.stage.frames")
-            if now == before:
+            now, pending = self.ask("[view.stage.frames, view.stage.asked]")
+            if now == before and not pending:
                 return
             before = now
             time.sleep(0.3)

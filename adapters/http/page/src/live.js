@@ -40,6 +40,7 @@ export class Live {
     address.hash = "";
     this.loaded = false;
     this.early = [];
+    this.frameTime = -Infinity;
     const socket = new WebSocket(address);
     socket.onopen = () => this.#opened(socket);
     socket.onmessage = (event) => this.#received(JSON.parse(event.data));
@@ -109,7 +110,9 @@ export class Live {
     const {world} = this;
     const isNews = this.#isNews(frame);
     const says = frame.paused !== world.paused || frame.speed !== world.speed;
-    if (frame.time < world.time - 1e-9) this.#fetchAll().catch(() => {});
+    // Compared with frames only: a command's answer may overtake frames sent before it.
+    if (frame.time < this.frameTime - 1e-9) this.#fetchAll().catch(() => {});
+    this.frameTime = frame.time;
     Object.assign(world, {
       time: frame.time,
       pace: frame.pace,
