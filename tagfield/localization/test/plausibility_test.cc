@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 
+#include "method_study.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/test/problem_of.h"
 
@@ -163,6 +164,30 @@ TEST(Plausibility, ATagOnAStraightWaysLineMayBeOnEitherSide) {
   const double error = (estimate.candidates.front().p_WT - tag).norm();
   EXPECT_LT(error, 5.0 * estimate.candidates.front().expected_error_m);
   EXPECT_GT(estimate.candidates.front().expected_error_m, 0.01);
+}
+
+/// Beside a straight path the mirror image fits as well: of two equal and narrow peaks at ±d the
+/// mean square deviation from one is ½ (2d)².
+TEST(Plausibility, TheMirrorImageBesideAStraightPathIsPartOfTheError) {
+  Rng rng(7);
+  const double d = 0.3;
+  const Eigen::Vector3d tag(3.0, d, 0.4);
+  LocalizationProblem problem =
+      made::one_tag({{"a", made::read_along(made::straight(6.0, 0.02), tag, {}, rng)}}, 0.4);
+  problem.limits.max_expected_error_m = 10.0;
+  Candidate candidate;
+  candidate.p_WT = tag;
+  candidate.expected_error_m = 0.001;
+  candidate.covariance = Eigen::Matrix3d::Zero();
+  LocalizationResult result;
+  result.estimates.resize(1);
+  result.estimates[0].tag = "t";
+  result.estimates[0].verdict = Verdict::kLocated;
+  result.estimates[0].candidates = {candidate};
+  span_line(problem, result);
+  const Eigen::Matrix3d covariance = result.estimates[0].candidates.at(0).covariance.value();
+  EXPECT_NEAR(covariance(1, 1) / (2.0 * d * d), 1.0, 0.1);
+  EXPECT_LT(covariance(0, 0), 1e-4);
 }
 
 TEST(Plausibility, AheadOfAStraightWayThereAreManyPlaces) {
