@@ -200,13 +200,15 @@ double slow_misfit(const std::vector<Learned>& tags, const PathLossLaw& law,
 
 }  // namespace
 
-PathLossLaw path_loss_law(const LocalizationProblem& problem, const TrilaterationOptions& options) {
+PathLossLaws path_loss_laws(const LocalizationProblem& problem,
+                            const TrilaterationOptions& options) {
   const PathLossLaw references = law_of_references(problem, options);
   std::vector<Learned> tags = learned_of(problem, options);
   const PathLossLaw even = learned_law(tags, references, options);
   PathLossLaw directed = references;
   directed.pattern_sigma_db = slow_misfit(tags, even, options);
-  return directed.pattern_sigma_db < kLeastPattern ? even : learned_law(tags, directed, options);
+  if (directed.pattern_sigma_db < kLeastPattern) return {even, even};
+  return {even, learned_law(tags, directed, options)};
 }
 
 }  // namespace tagfield

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The path-loss law of a problem: its slope, levels of reference tags, and how much gains depend
-/// on direction, learned from the RSSI of up to twelve tags.
+/// The path-loss laws of a problem: their slope, levels of reference tags, and how much gains
+/// depend on direction, learned from the RSSI of up to twelve tags.
 #pragma once
 
 #include "tagfield/localization/signal_strength/rssi_fit.h"
@@ -9,9 +9,15 @@
 
 namespace tagfield {
 
+struct PathLossLaws {
+  PathLossLaw even;      ///< The same gain in all directions.
+  PathLossLaw directed;  ///< Gains vary by as much as the even law leaves in slow errors.
+};
+
 /// With reference tags, slope and levels come from a straight line through theirs. Otherwise the
-/// slope is that which suits all tags best, each at its best position. Gains depend on direction by
-/// as much as a law without that leaves in slow errors. Without reads it is the options' law.
-PathLossLaw path_loss_law(const LocalizationProblem& problem, const TrilaterationOptions& options);
+/// slope is that which suits all tags best, each at its best position. Without reads they are the
+/// options' law.
+PathLossLaws path_loss_laws(const LocalizationProblem& problem,
+                            const TrilaterationOptions& options);
 
 }  // namespace tagfield

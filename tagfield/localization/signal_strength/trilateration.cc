@@ -49,24 +49,44 @@ Candidate candidate_at(const BinnedRssi& bins, const PathLossLaw& law,
   return candidate;
 }
 
+/// Positions of a tag by a law.
+struct Placed {
+  PathLossLaw law;
+  std::vector<RssiCell> cells;
+  std::vector<RssiFit> fits;  ///< Best first.
+  Eigen::ArrayXd best;        ///< Residuals of the first.
+};
+
+/// Positions within range of all reads; without fits if there are none.
+Placed placed_by(const BinnedRssi& bins, const PathLossLaw& law, double height,
+                 double max_range_m) {
+  Placed placed{law, rssi_cells(bins, law, height, max_range_m), {}, {}};
+  placed.fits = rssi_minima(bins, law, placed.cells, max_range_m);
+  if (!placed.fits.empty()) placed.best = misfit_at(bins, law, placed.fits.front().p_WT).residuals;
+  return placed;
+}
+
+bool is_excluded(const BinnedRssi& bins, const Placed& by, const Eigen::Vector3d& p_WT) {
+  return tells_apart(bins.spans, by.best, misfit_at(bins, by.law, p_WT).residuals);
+}
+
 /// ln of the likelihood ratio of the RSSI, averaged over all positions in reach, against an
 /// arbitrary RSSI that does not depend on position; each with its own residual noise.
-double log_evidence(const BinnedRssi& bins, const PathLossLaw& law,
-                    const std::vector<RssiCell>& cells, const Eigen::ArrayXd& best) {
+double log_evidence(const BinnedRssi& bins, const Placed& by) {
+  const auto& [law, cells, fits, best] = by;
   PathLossLaw flat;
   flat.slope_db = 0.0;
   BinnedRssi unaimed = bins;
   unaimed.lobe.beam_width_deg = 0.0;
-  const RssiMisfit without = misfit_at(unaimed, flat, cells.front().p_WT);
+  const double without = misfit_at(unaimed, flat, fits.front().p_WT).cost;
   const auto count = static_cast<double>(best.size());
   const double half = 0.5 * count / correlation_factor(bins.spans, best);
   const double least = count * kMinRssiNoise * kMinRssiNoise;
   Eigen::ArrayXd logs(static_cast<Eigen::Index>(cells.size()));
   for (std::size_t i = 0; i < cells.size(); ++i) {
     logs[static_cast<Eigen::Index>(i)] =
-        half * std::log(std::max(without.cost, least) /
-                        std::max(cost_of(cells[i], law.slope_db), least)) -
-        0.5 * (cells[i].cost.log_determinant - without.log_determinant);
+        half *
+        std::log(std::max(without, least) / std::max(cost_of(cells[i], law.slope_db), least));
   }
   const double most = logs.maxCoeff();
   return most + std::log((logs - most).exp().mean());
@@ -108,15 +128,33 @@ void widen(const BinnedRssi& bins, const PathLossLaw& law, const std::vector<Rss
   }
 }
 
-/// Whether a position is the same as a better one: less than three standard deviations of their
-/// difference apart.
-bool is_part_of_any(const std::vector<Candidate>& better, const Candidate& one, double bin_m) {
+/// Whether a position is the same as a better one: within three of its standard deviations.
+bool is_part_of_any(const std::vector<Candidate>& better, const Eigen::Vector3d& p_WT,
+                    double bin_m) {
   return std::any_of(better.begin(), better.end(), [&](const Candidate& other) {
-    const Eigen::Matrix2d covariance = (*other.covariance + *one.covariance).topLeftCorner<2, 2>() +
-                                       bin_m * bin_m / 6.0 * Eigen::Matrix2d::Identity();
-    const Eigen::Vector2d off = (one.p_WT - other.p_WT).head<2>();
+    const Eigen::Matrix2d covariance = other.covariance->topLeftCorner<2, 2>() +
+                                       bin_m * bin_m / 12.0 * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d off = (p_WT - other.p_WT).head<2>();
     return off.dot(covariance.inverse() * off) < 9.0;
   });
+}
+
+/// The best position by the directed law, and all that neither law excludes: gains may make up for
+/// poses that are wrong.
+std::vector<Candidate> candidates_of(const BinnedRssi& bins, const Placed& directed,
+                                     const Placed& even, double bin_m) {
+  std::vector<RssiFit> fits = directed.fits;
+  fits.insert(fits.end(), even.fits.begin(), even.fits.end());
+  std::vector<Candidate> candidates;
+  for (const RssiFit& fit : fits) {
+    if (is_part_of_any(candidates, fit.p_WT, bin_m)) continue;
+    if (!candidates.empty() && is_excluded(bins, directed, fit.p_WT) &&
+        is_excluded(bins, even, fit.p_WT)) {
+      continue;
+    }
+    candidates.push_back(candidate_at(bins, directed.law, fit.p_WT));
+  }
+  return candidates;
 }
 
 std::string why_not(const SamplesOfTag& samples, const BinnedRssi& bins) {
@@ -129,38 +167,31 @@ std::string why_not(const SamplesOfTag& samples, const BinnedRssi& bins) {
   return "";
 }
 
-TagEstimate locate_by_strength(const LocalizationProblem& problem, const PathLossLaw& law,
+TagEstimate locate_by_strength(const LocalizationProblem& problem, const PathLossLaws& laws,
                                const std::string& tag, const SamplesOfTag& samples,
                                const TrilaterationOptions& options) {
   TagEstimate estimate = begun(tag, samples);
   const BinnedRssi bins = binned_rssi(problem, samples, options.bin_m, options);
   const std::string why = why_not(samples, bins);
   if (!why.empty()) return not_located(std::move(estimate), why);
-  const std::vector<RssiCell> cells =
-      rssi_cells(bins, law, plane_height(problem, tag), options.max_range_m);
-  if (cells.empty())
+  const double height = plane_height(problem, tag);
+  const Placed even = placed_by(bins, laws.even, height, options.max_range_m);
+  if (even.fits.empty())
     return not_located(std::move(estimate), "no position is within range of all reads");
-  const std::vector<RssiFit> fits = rssi_minima(bins, law, cells, options.max_range_m);
-  const Eigen::ArrayXd best = misfit_at(bins, law, fits.front().p_WT).residuals;
-  const double misfit_db = std::sqrt(best.square().mean());
+  const double misfit_db = std::sqrt(even.best.square().mean());
   if (misfit_db > options.max_misfit_db) {
     return not_located(std::move(estimate),
                        fmt::format("RSSI does not fit a law of distance: misfit {:.1f} dB, limit "
                                    "{:.1f} dB",
                                    misfit_db, options.max_misfit_db));
   }
-  if (log_evidence(bins, law, cells, best) < kMinLogEvidence) {
+  // With gains that vary with direction, anything slow would fit.
+  if (log_evidence(bins, even) < kMinLogEvidence) {
     return not_located(std::move(estimate), "RSSI shows no significant dependence on distance");
   }
-  for (const RssiFit& fit : fits) {
-    const Candidate candidate = candidate_at(bins, law, fit.p_WT);
-    if (is_part_of_any(estimate.candidates, candidate, options.bin_m)) continue;
-    const bool first = estimate.candidates.empty();
-    if (first || !tells_apart(bins.spans, best, misfit_at(bins, law, fit.p_WT).residuals)) {
-      estimate.candidates.push_back(candidate);
-    }
-  }
-  widen(bins, law, cells, estimate.candidates);
+  const Placed directed = placed_by(bins, laws.directed, height, options.max_range_m);
+  estimate.candidates = candidates_of(bins, directed, even, options.bin_m);
+  widen(bins, directed.law, directed.cells, estimate.candidates);
   for (Candidate& candidate : estimate.candidates) add_bin_length(options.bin_m, candidate);
   EstimateLimits limits;
   limits.max_expected_error_m = options.max_expected_error_m;
@@ -175,9 +206,9 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const PathLos
 
 std::vector<TagEstimate> locate_by_rssi(const LocalizationProblem& problem, int threads,
                                         const TrilaterationOptions& options) {
-  const PathLossLaw law = path_loss_law(problem, options);
+  const PathLossLaws laws = path_loss_laws(problem, options);
   return locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
-    return locate_by_strength(problem, law, tag, samples, options);
+    return locate_by_strength(problem, laws, tag, samples, options);
   });
 }
 
