@@ -11,6 +11,7 @@
 
 #include "tagfield/base/file_kind.h"
 #include "tagfield/base/number.h"
+#include "tagfield/base/rssi_range.h"
 #include "tagfield/base/units.h"
 #include "tagfield/files/folder_entries.h"
 
@@ -231,6 +232,11 @@ void add_table(const std::string& path, const DatasetForm& form, Gathered& all) 
     read.frequency_hz = frequency.read(row);
     if (phase) read.phase_rad = wrap_to_two_pi(turn * table.number(row, *phase));
     read.rssi_dbm = rssi ? form.decibels * table.number(row, *rssi) : kUnknownRssi;
+    if (!is_rssi(read.rssi_dbm)) {
+      fail({table.file, row.line},
+           fmt::format("{} is {} dBm, expected {} to {}: which unit is it in?", form.rssi_column,
+                       read.rssi_dbm, -kMaxRssiDbm, kMaxRssiDbm));
+    }
     if (position) all.poses.add(read.stamp, read.antenna, position->read(row));
     all.reads.push_back(std::move(read));
   }

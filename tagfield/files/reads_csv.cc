@@ -9,6 +9,7 @@
 #include <iterator>
 #include <utility>
 
+#include "tagfield/base/rssi_range.h"
 #include "tagfield/base/units.h"
 #include "tagfield/files/csv.h"
 
@@ -67,6 +68,10 @@ TagRead read_in(const CsvTable& table, const ReadColumns& columns, const CsvRow&
   }
   if (columns.phase) read.phase_rad = wrap_to_two_pi(table.number(row, *columns.phase));
   read.rssi_dbm = table.number(row, columns.rssi);
+  if (!is_rssi(read.rssi_dbm)) {
+    fail({table.file, row.line}, fmt::format("rssi_dbm must be from {} to {} dBm, is {}",
+                                             -kMaxRssiDbm, kMaxRssiDbm, read.rssi_dbm));
+  }
   const bool reports_doppler = columns.doppler && !row.fields[*columns.doppler].empty();
   if (reports_doppler) read.doppler_hz = table.number(row, *columns.doppler);
   return read;

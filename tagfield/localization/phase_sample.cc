@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tagfield/base/rssi_range.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/problem.h"
@@ -285,7 +286,7 @@ JoinedReads join_reads_with_tracks(const EachRead& each_read,
     // reads.
     if (samples.empty()) samples.reserve(look.counts.at(read.tag).at(read.antenna));
     samples.push_back({read.stamp, wrap_to_two_pi(read.phase_rad), read.frequency_hz,
-                       X_WA->translation, std::isfinite(read.rssi_dbm) ? read.rssi_dbm : kNoRssi});
+                       X_WA->translation, is_rssi(read.rssi_dbm) ? read.rssi_dbm : kNoRssi});
   });
   warn_of_strays(strays, look.ranges, "reads", diagnostics);
   for (auto& [tag, of_tag] : joined.samples) {

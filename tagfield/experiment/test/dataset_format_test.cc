@@ -203,6 +203,8 @@ TEST(DatasetFormat, ComplaintsNameTheLine) {
             ":3: phase_angle is 'abc', expected a finite number");
   EXPECT_EQ(complaint_of_rows("1e30,a,-50,E2,100,1\n"),
             ":2: timestamp is '1e30', which is not a time in this unit");
+  EXPECT_EQ(complaint_of_rows("1,a,-5000,E2,100,1\n"),
+            ":2: rssi is -5000 dBm, expected -300 to 300: which unit is it in?");
   EXPECT_EQ(complaint_of_rows("1,a,-50,,100,1\n"), ":2: epc is empty");
   EXPECT_EQ(complaint_of_rows("1,a,-50\n"), ":2: 3 fields where the header has 6");
   const std::string dates =

@@ -90,6 +90,8 @@ TEST(ReadReadsCsv, NamesColumnAndLineOfBadInput) {
       {"1,r,a,t,nan,1,-60", "frequency_hz is 'nan'"},
       {"1,r,a,t,9e8,inf,-60", "phase_rad is 'inf'"},
       {"1,r,a,t,9e8,1,loud", "rssi_dbm is 'loud'"},
+      {"1,r,a,t,9e8,1,-5550", "rssi_dbm must be from -300 to 300 dBm, is -5550"},
+      {"1,r,a,t,9e8,1,1e300", "rssi_dbm must be from -300 to 300 dBm, is 1e+300"},
       {"1,r,,t,9e8,1,-60", "antenna is empty"},
       {"1,r,a,,9e8,1,-60", "tag is empty"},
       {"never,r,a,t,9e8,1,-60", "stamp_s: 'never'"},

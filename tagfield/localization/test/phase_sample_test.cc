@@ -48,6 +48,19 @@ TEST(Join, TakesReadsAndPosesInAnyOrderAndUnixTimes) {
   EXPECT_NEAR(samples[1].p_WA.x(), 3.0, 1e-5);
 }
 
+TEST(Join, TakesAnImpossibleRssiForNone) {
+  Diagnostics diagnostics;
+  std::vector<TagRead> reads{read_of(10.0), read_of(10.1), read_of(10.2), read_of(10.3)};
+  reads[1].rssi_dbm = kNan;
+  reads[2].rssi_dbm = 1e300;
+  reads[3].rssi_dbm = -5500.0;
+  const auto joined = join(reads, {pose_at_x(10.0, 1.0), pose_at_x(10.4, 3.0)}, diagnostics);
+  const auto& samples = joined.at("t").at("a");
+  ASSERT_EQ(samples.size(), 4u);
+  EXPECT_EQ(samples[0].rssi_dbm, -50.0);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(samples[i].rssi_dbm, kNoRssi) << i;
+}
+
 TEST(Join, LeavesOutReadsWithoutAPoseAndSaysHowMany) {
   Diagnostics diagnostics;
   const auto joined = join({read_of(0.9), read_of(1.0), read_of(2.0), read_of(3.1)},

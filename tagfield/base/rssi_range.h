@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Which numbers can be an RSSI at all.
+#pragma once
+
+#include <cmath>
+
+namespace tagfield {
+
+/// Beyond ±this [dBm] a number is no received power: readers report −120 to 30 dBm, and those in
+/// hundredths of a dBm are off by thousands.
+inline constexpr double kMaxRssiDbm = 300.0;
+
+/// False also for NaN.
+inline bool is_rssi(double rssi_dbm) { return std::abs(rssi_dbm) <= kMaxRssiDbm; }
+
+}  // namespace tagfield
