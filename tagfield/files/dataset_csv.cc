@@ -11,7 +11,7 @@
 
 #include "tagfield/base/file_kind.h"
 #include "tagfield/base/number.h"
-#include "tagfield/base/rssi_range.h"
+#include "tagfield/base/read_range.h"
 #include "tagfield/base/units.h"
 #include "tagfield/files/folder_entries.h"
 
@@ -171,10 +171,10 @@ struct FrequencyReader {
  private:
   [[nodiscard]] double carrier(const CsvRow& row, double value) const {
     const double hertz = form.hertz * value;
-    if (hertz >= 1e6 && hertz <= 1e11) return hertz;
+    if (is_carrier(hertz)) return hertz;
     fail({table.file, row.line},
-         fmt::format("{} is '{}', which is {:g} Hz, expected 1e6 to 1e11: is the unit right?",
-                     form.column, row.fields[*column], hertz));
+         fmt::format("{} is '{}', which is {:g} Hz, expected {:g} to {:g}: is the unit right?",
+                     form.column, row.fields[*column], hertz, kMinCarrierHz, kMaxCarrierHz));
   }
   [[nodiscard]] double channel(const CsvRow& row, double value) const {
     const double last = form.first_channel + static_cast<double>(form.channels_hz.size()) - 1.0;

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <utility>
 
-#include "tagfield/base/rssi_range.h"
+#include "tagfield/base/read_range.h"
 #include "tagfield/base/units.h"
 #include "tagfield/files/csv.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "tagfield/base/rssi_range.h"
+#include "tagfield/base/read_range.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/problem.h"
@@ -19,17 +19,13 @@ namespace {
 /// they are in time.
 constexpr double kStillDistance = 0.01;
 
-/// Lower carriers [Hz] are invalid: some were given in MHz.
-constexpr double kLowestCarrier = 1e6;
-
 bool is_finite(const AntennaPose& pose) {
   return pose.X_WA.translation.allFinite() && pose.X_WA.rotation.coeffs().allFinite() &&
          (!pose.covariance || pose.covariance->allFinite());
 }
 
 bool is_usable(const TagRead& read) {
-  return std::isfinite(read.phase_rad) && std::isfinite(read.frequency_hz) &&
-         read.frequency_hz >= kLowestCarrier;
+  return std::isfinite(read.phase_rad) && is_carrier(read.frequency_hz);
 }
 
 std::string range_words(Time first, Time last) {

@@ -48,6 +48,16 @@ TEST(Join, TakesReadsAndPosesInAnyOrderAndUnixTimes) {
   EXPECT_NEAR(samples[1].p_WA.x(), 3.0, 1e-5);
 }
 
+TEST(Join, LeavesOutCarriersThatNoReaderHas) {
+  Diagnostics diagnostics;
+  std::vector<TagRead> reads{read_of(10.0), read_of(10.1), read_of(10.2), read_of(10.3)};
+  reads[1].frequency_hz = 865.7;  // In MHz.
+  reads[2].frequency_hz = 1e15;
+  reads[3].frequency_hz = kNan;
+  const auto joined = join(reads, {pose_at_x(10.0, 1.0), pose_at_x(10.4, 3.0)}, diagnostics);
+  EXPECT_EQ(joined.at("t").at("a").size(), 1u);
+}
+
 TEST(Join, TakesAnImpossibleRssiForNone) {
   Diagnostics diagnostics;
   std::vector<TagRead> reads{read_of(10.0), read_of(10.1), read_of(10.2), read_of(10.3)};
