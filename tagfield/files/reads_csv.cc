@@ -68,9 +68,10 @@ TagRead read_in(const CsvTable& table, const ReadColumns& columns, const CsvRow&
   }
   if (columns.phase) read.phase_rad = wrap_to_two_pi(table.number(row, *columns.phase));
   read.rssi_dbm = table.number(row, columns.rssi);
-  if (!is_rssi(read.rssi_dbm)) {
-    fail({table.file, row.line}, fmt::format("rssi_dbm must be from {} to {} dBm, is {}",
-                                             -kMaxRssiDbm, kMaxRssiDbm, read.rssi_dbm));
+  // No lower bound: by the paper's law RSSI is as low as noise cancels the amplitude.
+  if (read.rssi_dbm > kMaxRssiDbm) {
+    fail({table.file, row.line},
+         fmt::format("rssi_dbm must be at most {} dBm, is {}", kMaxRssiDbm, read.rssi_dbm));
   }
   const bool reports_doppler = columns.doppler && !row.fields[*columns.doppler].empty();
   if (reports_doppler) read.doppler_hz = table.number(row, *columns.doppler);

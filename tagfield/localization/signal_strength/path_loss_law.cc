@@ -204,11 +204,11 @@ PathLossLaws path_loss_laws(const LocalizationProblem& problem,
                             const TrilaterationOptions& options) {
   const PathLossLaw references = law_of_references(problem, options);
   std::vector<Learned> tags = learned_of(problem, options);
-  const PathLossLaw even = learned_law(tags, references, options);
-  PathLossLaw directed = references;
-  directed.pattern_sigma_db = slow_misfit(tags, even, options);
-  if (directed.pattern_sigma_db < kLeastPattern) return {even, even};
-  return {even, learned_law(tags, directed, options)};
+  const PathLossLaw isotropic = learned_law(tags, references, options);
+  PathLossLaw directional = references;
+  directional.pattern_sigma_db = slow_misfit(tags, isotropic, options);
+  if (directional.pattern_sigma_db < kLeastPattern) return {isotropic, isotropic};
+  return {isotropic, learned_law(tags, directional, options)};
 }
 
 }  // namespace tagfield

@@ -10,8 +10,8 @@
 namespace tagfield {
 
 struct PathLossLaws {
-  PathLossLaw even;      ///< The same gain in all directions.
-  PathLossLaw directed;  ///< Gains vary by as much as the even law leaves in slow errors.
+  PathLossLaw isotropic;    ///< The same gain in all directions.
+  PathLossLaw directional;  ///< Gains vary by as much as the isotropic law leaves in slow errors.
 };
 
 /// With reference tags, slope and levels come from a straight line through theirs. Otherwise the

@@ -217,8 +217,8 @@ RssiMisfit misfit_at(const BinnedRssi& bins, const PathLossLaw& law, const Eigen
 RssiParabola parabola_at(const BinnedRssi& bins, const PathLossLaw& law,
                          const Eigen::Vector3d& p_WT) {
   const Eigen::ArrayXd root = bins.weight.sqrt();
-  Eigen::MatrixX2d values(bins.rssi.size(),
-                          2);  // Their sum, the second times the slope, is fitted.
+  // The first plus the second times the slope is fitted.
+  Eigen::MatrixX2d values(bins.rssi.size(), 2);
   values.col(0) = root * (bins.rssi - lobe_gains(bins, p_WT));
   values.col(1) = root * distances(bins, p_WT).log10();
   Eigen::Matrix2d sums = values.transpose() * values;

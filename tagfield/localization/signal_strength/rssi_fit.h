@@ -63,8 +63,8 @@ struct RssiMisfit {
   Eigen::ArrayXd residuals;      ///< Times the square root of the weight [dB].
   Eigen::MatrixXd coefficients;  ///< Of the gains, a column for each span.
   double cost = 0.0;  ///< Squares of residuals and of what levels and gains deviate [dB²].
-  double log_determinant =
-      0.0;  ///< Of levels and gains over their prior: Occam's factor is −½ of it.
+  /// Of levels and gains over their prior; Occam's factor is −½ of it.
+  double log_determinant = 0.0;
 };
 
 RssiMisfit misfit_at(const BinnedRssi& bins, const PathLossLaw& law, const Eigen::Vector3d& p_WT);

@@ -57,7 +57,7 @@ RssiFit rssi_refined(const BinnedRssi& bins, const PathLossLaw& law, const Eigen
     return point_at(bins, law, here.p_WT + Eigen::Vector3d(move.x(), move.y(), 0.0));
   };
   const RssiPoint best = descend(point_at(bins, law, start), kHow, step);
-  return {best.p_WT, best.cost, best.misfit.log_determinant};
+  return {best.p_WT, best.cost};
 }
 
 double cost_of(const RssiCell& cell, double slope_db) {
@@ -95,7 +95,7 @@ std::vector<RssiFit> rssi_minima(const BinnedRssi& bins, const PathLossLaw& law,
   std::vector<RssiFit> all;
   std::vector<RssiFit> lowest;
   for (const RssiCell& cell : cells) {
-    all.push_back({cell.p_WT, cost_of(cell, law.slope_db), cell.cost.log_determinant});
+    all.push_back({cell.p_WT, cost_of(cell, law.slope_db)});
     const bool is_lowest = std::all_of(
         cell.neighbours.begin(), cell.neighbours.end(),
         [&](std::size_t other) { return all.back().cost <= cost_of(cells[other], law.slope_db); });

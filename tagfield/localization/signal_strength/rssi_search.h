@@ -13,8 +13,7 @@ namespace tagfield {
 /// A position and how well it fits.
 struct RssiFit {
   Eigen::Vector3d p_WT = Eigen::Vector3d::Zero();
-  double cost = 0.0;             ///< As RssiMisfit's.
-  double log_determinant = 0.0;  ///< As RssiMisfit's.
+  double cost = 0.0;  ///< As RssiMisfit's.
 };
 
 /// A position of the search grid.

@@ -139,20 +139,20 @@ bool is_part_of_any(const std::vector<Candidate>& better, const Eigen::Vector3d&
   });
 }
 
-/// The best position by the directed law, and all that neither law excludes: gains may make up for
-/// poses that are wrong.
-std::vector<Candidate> candidates_of(const BinnedRssi& bins, const Placed& directed,
-                                     const Placed& even, double bin_m) {
-  std::vector<RssiFit> fits = directed.fits;
-  fits.insert(fits.end(), even.fits.begin(), even.fits.end());
+/// The best position by the directional law, and all that neither law excludes: gains may make up
+/// for poses that are wrong.
+std::vector<Candidate> candidates_of(const BinnedRssi& bins, const Placed& directional,
+                                     const Placed& isotropic, double bin_m) {
+  std::vector<RssiFit> fits = directional.fits;
+  fits.insert(fits.end(), isotropic.fits.begin(), isotropic.fits.end());
   std::vector<Candidate> candidates;
   for (const RssiFit& fit : fits) {
     if (is_part_of_any(candidates, fit.p_WT, bin_m)) continue;
-    if (!candidates.empty() && is_excluded(bins, directed, fit.p_WT) &&
-        is_excluded(bins, even, fit.p_WT)) {
+    if (!candidates.empty() && is_excluded(bins, directional, fit.p_WT) &&
+        is_excluded(bins, isotropic, fit.p_WT)) {
       continue;
     }
-    candidates.push_back(candidate_at(bins, directed.law, fit.p_WT));
+    candidates.push_back(candidate_at(bins, directional.law, fit.p_WT));
   }
   return candidates;
 }
@@ -175,10 +175,10 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const PathLos
   const std::string why = why_not(samples, bins);
   if (!why.empty()) return not_located(std::move(estimate), why);
   const double height = plane_height(problem, tag);
-  const Placed even = placed_by(bins, laws.even, height, options.max_range_m);
-  if (even.fits.empty())
+  const Placed isotropic = placed_by(bins, laws.isotropic, height, options.max_range_m);
+  if (isotropic.fits.empty())
     return not_located(std::move(estimate), "no position is within range of all reads");
-  const double misfit_db = std::sqrt(even.best.square().mean());
+  const double misfit_db = std::sqrt(isotropic.best.square().mean());
   if (misfit_db > options.max_misfit_db) {
     return not_located(std::move(estimate),
                        fmt::format("RSSI does not fit a law of distance: misfit {:.1f} dB, limit "
@@ -186,12 +186,14 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const PathLos
                                    misfit_db, options.max_misfit_db));
   }
   // With gains that vary with direction, anything slow would fit.
-  if (log_evidence(bins, even) < kMinLogEvidence) {
+  if (log_evidence(bins, isotropic) < kMinLogEvidence) {
     return not_located(std::move(estimate), "RSSI shows no significant dependence on distance");
   }
-  const Placed directed = placed_by(bins, laws.directed, height, options.max_range_m);
-  estimate.candidates = candidates_of(bins, directed, even, options.bin_m);
-  widen(bins, directed.law, directed.cells, estimate.candidates);
+  const bool has_gains = laws.directional.pattern_sigma_db > 0.0;
+  const Placed directional =
+      has_gains ? placed_by(bins, laws.directional, height, options.max_range_m) : isotropic;
+  estimate.candidates = candidates_of(bins, directional, isotropic, options.bin_m);
+  widen(bins, directional.law, directional.cells, estimate.candidates);
   for (Candidate& candidate : estimate.candidates) add_bin_length(options.bin_m, candidate);
   EstimateLimits limits;
   limits.max_expected_error_m = options.max_expected_error_m;
