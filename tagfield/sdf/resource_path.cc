@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -92,6 +93,16 @@ FoundResource find_below(const std::vector<std::string>& folders, const fs::path
   return {};
 }
 
+/// For "models/REST" in folders that are called "models" themselves: REST below the first that has
+/// it, as if the folder above them were searched.
+FoundResource find_below_namesake(const std::vector<std::string>& folders, const fs::path& path) {
+  const fs::path first = *path.begin();
+  std::vector<std::string> namesakes;
+  std::copy_if(folders.begin(), folders.end(), std::back_inserter(namesakes),
+               [&](const std::string& folder) { return fs::path(folder).filename() == first; });
+  return find_below(namesakes, path.lexically_relative(first));
+}
+
 FoundResource find_path(const std::string& path, const std::string& naming_file,
                         const ResourcePaths& paths) {
   if (path.empty()) return {};
@@ -101,7 +112,8 @@ FoundResource find_path(const std::string& path, const std::string& naming_file,
   std::vector<std::string> folders = {fs::path(naming_file).parent_path().string()};
   folders.insert(folders.end(), paths.folders.begin(), paths.folders.end());
   folders.insert(folders.end(), paths.roots.begin(), paths.roots.end());
-  return find_below(folders, path);
+  FoundResource found = find_below(folders, path);
+  return found.path.empty() ? find_below_namesake(folders, path) : found;
 }
 
 std::string without_leading_slashes(const std::string& path) {

@@ -54,7 +54,19 @@ void require_whole_numbers(const std::string& path, const XMLElement& element) {
   }
 }
 
+/// Deletes everything directly in `element` but elements and text: assimp (5.2.5) takes comments
+/// for elements.
+void drop_comments(XMLElement& element) {
+  tinyxml2::XMLNode* child = element.FirstChild();
+  while (child != nullptr) {
+    tinyxml2::XMLNode* const next = child->NextSibling();
+    if (child->ToElement() == nullptr && child->ToText() == nullptr) element.DeleteChild(child);
+    child = next;
+  }
+}
+
 void drop_others(const std::string& path, XMLElement& element) {
+  drop_comments(element);
   require_whole_numbers(path, element);
   XMLElement* child = element.FirstChildElement();
   while (child != nullptr) {

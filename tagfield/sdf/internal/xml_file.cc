@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -98,6 +99,57 @@ Eigen::Quaterniond from_roll_pitch_yaw(double roll, double pitch, double yaw) {
   return Eigen::Quaterniond(w / length, x / length, y / length, z / length).normalized();
 }
 
+/// The first numbers of an element's text.
+struct LeadingNumbers {
+  std::vector<double> numbers;  ///< All are finite.
+  bool is_all = true;           ///< Whether there is nothing else in the text.
+};
+
+/// At most `count` of them.
+LeadingNumbers leading_numbers(const XMLElement& element, std::size_t count) {
+  LeadingNumbers found;
+  std::istringstream words(text_of(element));
+  for (std::string word; words >> word;) {
+    const auto number = found.numbers.size() < count ? parse_number(word) : std::nullopt;
+    if (!number) {
+      found.is_all = false;
+      break;
+    }
+    found.numbers.push_back(*number);
+  }
+  return found;
+}
+
+[[noreturn]] void refuse_numbers(const XMLElement& element, std::size_t count) {
+  fail(location_of(element),
+       fmt::format("missing or bad value in <{}>: '{}' (expected {} number{})", element.Name(),
+                   text_of(element), count, count == 1 ? "" : "s"));
+}
+
+void warn_of_more(const XMLElement& element, std::size_t count, Diagnostics& diagnostics) {
+  const std::string used =
+      count == 1 ? "the first number is" : fmt::format("the first {} numbers are", count);
+  diagnostics.warn(location_of(element), fmt::format("of '{}' in <{}> only {} used",
+                                                     text_of(element), element.Name(), used));
+}
+
+/// The six numbers of a pose; those missing at its end are 0, as in Gazebo 11.
+std::vector<double> pose_numbers(const XMLElement& pose, Diagnostics& diagnostics) {
+  constexpr std::size_t kCount = 6;
+  LeadingNumbers found = leading_numbers(pose, kCount);
+  if (found.numbers.size() == kCount) {
+    if (!found.is_all) warn_of_more(pose, kCount, diagnostics);
+    return found.numbers;
+  }
+  if (!found.is_all) refuse_numbers(pose, kCount);
+  diagnostics.warn(location_of(pose),
+                   fmt::format("of 6 numbers in <pose> only the first {} are there: '{}'; 0 is "
+                               "assumed for the others, as in Gazebo 11",
+                               found.numbers.size(), text_of(pose)));
+  found.numbers.resize(kCount, 0.0);
+  return found.numbers;
+}
+
 RigidTransform pose_with_quaternion(const XMLElement& pose, const std::vector<double>& n) {
   const auto rotation = as_rotation(Eigen::Quaterniond(n[6], n[3], n[4], n[5]));
   if (!rotation) fail(location_of(pose), "the quaternion in <pose> must be of length 1");
@@ -180,24 +232,10 @@ std::string name_of(const XMLElement& element) {
 
 std::vector<double> numbers_of(const XMLElement& element, std::size_t count,
                                Diagnostics& diagnostics) {
-  std::vector<double> numbers;
-  std::istringstream words(text_of(element));
-  std::string word;
-  while (words >> word && numbers.size() < count) {
-    const auto number = parse_number(word);
-    if (!number) break;
-    numbers.push_back(*number);
-  }
-  if (numbers.size() < count) {
-    fail(location_of(element),
-         fmt::format("missing or bad value in <{}>: '{}' (expected {} number{})", element.Name(),
-                     text_of(element), count, count == 1 ? "" : "s"));
-  }
-  if (words) {
-    diagnostics.warn(location_of(element), fmt::format("of '{}' in <{}> only the first {} are used",
-                                                       text_of(element), element.Name(), count));
-  }
-  return numbers;
+  LeadingNumbers found = leading_numbers(element, count);
+  if (found.numbers.size() < count) refuse_numbers(element, count);
+  if (!found.is_all) warn_of_more(element, count, diagnostics);
+  return found.numbers;
 }
 
 RigidTransform pose_of(const XMLElement& pose, Diagnostics& diagnostics) {
@@ -205,7 +243,7 @@ RigidTransform pose_of(const XMLElement& pose, Diagnostics& diagnostics) {
   if (attribute_of(pose, "rotation_format") == "quat_xyzw") {
     return pose_with_quaternion(pose, numbers_of(pose, 7, diagnostics));
   }
-  const std::vector<double> n = numbers_of(pose, 6, diagnostics);
+  const std::vector<double> n = pose_numbers(pose, diagnostics);
   const double unit = pose.BoolAttribute("degrees", false) ? kPi / 180.0 : 1.0;
   return {from_roll_pitch_yaw(unit * n[3], unit * n[4], unit * n[5]), {n[0], n[1], n[2]}};
 }

@@ -76,8 +76,9 @@ void for_each_child(const tinyxml2::XMLElement& element, const char* name, const
 }
 
 /// A <pose>: six numbers, [m] and [rad], or as given by its attributes `degrees` and
-/// `rotation_format`; the identity if it is empty. Throws Error if numbers are missing or not
-/// finite.
+/// `rotation_format`; the identity if it is empty. Numbers missing at its end are 0 (with a
+/// warning), as in Gazebo 11. Throws Error for anything that is not a finite number, and for an
+/// incomplete quaternion.
 RigidTransform pose_of(const tinyxml2::XMLElement& pose, Diagnostics& diagnostics);
 
 }  // namespace tagfield::sdf_internal

@@ -116,6 +116,17 @@ TEST_F(LoadWorldErrors, PoseThatIsNotFinite) {
                "world.sdf:4: missing or bad value in <pose>");
 }
 
+TEST_F(LoadWorldErrors, PoseThatIsNotNumbers) {
+  expect_error("<model name='m'>\n<pose>1 2 3 0 0 left</pose><link name='l'/></model>",
+               "world.sdf:4: missing or bad value in <pose>: '1 2 3 0 0 left'");
+  expect_error("<model name='m'>\n<pose>1, 2, 3, 0, 0, 0</pose><link name='l'/></model>",
+               "world.sdf:4: missing or bad value in <pose>");
+  expect_error(
+      "<model name='m'>\n<pose rotation_format='quat_xyzw'>1 2 3 0 0 0</pose>"
+      "<link name='l'/></model>",
+      "world.sdf:4: missing or bad value in <pose>: '1 2 3 0 0 0' (expected 7 numbers)");
+}
+
 TEST_F(LoadWorldErrors, SizesThatAreNoNumbers) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"\n<box><size>1 1</size></box>",

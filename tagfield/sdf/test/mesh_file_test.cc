@@ -145,6 +145,16 @@ TEST_F(MeshFileTest, ObjKeepsVolumeAndBounds) {
   expect_brick(read_mesh(path).mesh, {0.0, 0.0, 0.0}, {1.0, 2.0, 3.0});
 }
 
+TEST_F(MeshFileTest, ColladaMayHaveCommentsAnywhere) {
+  std::string text = as_collada(brick(), "1", "Z_UP");
+  for (const std::string place : {"</vertices>", "<triangles", "</mesh>", "<library_geometries>"}) {
+    text.insert(text.find(place), "<!-- <input semantic=\"NORMAL\" source=\"#n\"/> -->");
+  }
+  const std::string path = write("brick.dae", text);
+  expect_brick(read_mesh(path, Eigen::Vector3d::Ones(), "first").mesh, {0.0, 0.0, 0.0},
+               {1.0, 2.0, 3.0});
+}
+
 TEST_F(MeshFileTest, ScaleIsPerAxis) {
   const std::string path = write("brick.obj", as_obj(brick(), "brick", 1));
   expect_brick(read_mesh(path, {2.0, 0.5, 1.0}).mesh, {0.0, 0.0, 0.0}, {2.0, 1.0, 3.0});

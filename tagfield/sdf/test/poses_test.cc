@@ -143,6 +143,19 @@ TEST_F(LoadWorldPoses, RelativeToAFrameThatIsNotThereIsAWarning) {
       << warnings()[0];
 }
 
+/// As Gazebo 11 reads them.
+TEST_F(LoadWorldPoses, NumbersMissingAtItsEndAreZero) {
+  const Scene scene =
+      load("<model name='m'>\n<pose>1 2 3 0 0</pose><link name='l'>\n<pose>0 0 1</pose>" +
+           ball("c", "<pose>0\n1</pose>") + "</link></model>");
+  ASSERT_EQ(scene.collisions.size(), 1U);
+  expect_pose(scene.collisions[0], {1.0, 3.0, 4.0}, 0.0);
+  ASSERT_EQ(warnings().size(), 3U);
+  EXPECT_NE(warnings()[0].find("world.sdf:5: of 6 numbers in <pose> only the first 3 are there"),
+            std::string::npos)
+      << warnings()[0];
+}
+
 TEST_F(LoadWorldPoses, FramesInACircleAreNowhere) {
   load(
       "<model name='m'><frame name='f' attached_to='g'/><frame name='g' attached_to='f'/>"

@@ -106,6 +106,17 @@ TEST_F(ResourcePath, RelativePathsAboveAFolderOfWorlds) {
   EXPECT_EQ(find("file://models/crate/a.dae", world, resource_paths(world, {})), mesh);
 }
 
+TEST_F(ResourcePath, PathsThatBeginWithTheNameOfAFolderOfModels) {
+  write("home/secret", "");
+  const std::string mesh = write("home/models/crate/a.dae", "");
+  const ResourcePaths paths{{path_of("other"), path_of("home/models")}};
+  const std::string world = path_of("elsewhere/w.sdf");
+  EXPECT_EQ(find("file://models/crate/a.dae", world, paths), mesh);
+  EXPECT_EQ(find("models/crate/a.dae", world, paths), mesh);
+  EXPECT_EQ(find("file://models/../secret", world, paths), "");
+  EXPECT_EQ(find("model://models/crate/a.dae", world, paths), "");
+}
+
 TEST_F(ResourcePath, NamesInAnotherCaseAreFoundWithAWord) {
   const std::string mesh = write("models/Crate/meshes/A.DAE", "");
   const ResourcePaths paths{{path_of("models")}};
