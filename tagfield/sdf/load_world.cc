@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "tagfield/sdf/internal/context.h"
@@ -35,6 +36,8 @@ struct Place {
   std::string name;  ///< Scoped.
   RigidTransform X_WM;
   const ModelState& state;
+  /// X_LC of the first collision of each name, LINK::COLLISION, so far.
+  std::map<std::string, RigidTransform> collisions = {};
 };
 
 /// Visits all models of a world and collects a scene. P is the frame around a model, M the model's,
@@ -52,7 +55,7 @@ class SceneGatherer {
                                 fmt::format("model '{}' has no links", model.name));
     }
     const RigidTransform X_PM = pose_in(around, model.frame, {}, context_.diagnostics);
-    const Place place{model, scope + model.name, state.pose(context_).value_or(X_WP * X_PM), state};
+    Place place{model, scope + model.name, state.pose(context_).value_or(X_WP * X_PM), state};
     scene_.models.push_back(place.name);
     for (const Link& link : model.links) add_link(link, place);
     for (const auto& nested : model.models) {
@@ -70,7 +73,7 @@ class SceneGatherer {
   }
 
  private:
-  void add_link(const Link& link, const Place& place) {
+  void add_link(const Link& link, Place& place) {
     sdf_internal::warn_of_unknown_children(*link.element, context_.diagnostics);
     const RigidTransform X_ML = pose_in(place.model.scope, link.frame, {}, context_.diagnostics);
     const RigidTransform X_WL =
@@ -78,7 +81,16 @@ class SceneGatherer {
     const std::string scope = place.name + "::" + link.name + "::";
     const std::vector<std::string> looks = looks_of(link, scope);
     for_each_child(*link.element, "collision", [&](const XMLElement& element) {
-      add_collision(element, X_WL * pose_in_link(element, link, place, X_ML), scope, looks);
+      const auto [X_LC, is_new] = place.collisions.try_emplace(link.name + "::" + name_of(element));
+      if (is_new) {
+        X_LC->second = pose_in_link(element, link, place, X_ML);
+      } else {
+        context_.diagnostics.warn(
+            location_of(element),
+            fmt::format("a second collision '{}' gets the first one's pose, as in Gazebo 11",
+                        scope + name_of(element)));
+      }
+      add_collision(element, X_WL * X_LC->second, scope, looks);
     });
     for_each_child(*link.element, "sensor", [&](const XMLElement& element) {
       const std::string type = attribute_of(element, "type");
@@ -117,9 +129,6 @@ class SceneGatherer {
                      const std::string& scope, const std::vector<std::string>& looks) {
     sdf_internal::warn_of_unknown_children(element, context_.diagnostics);
     const std::string name = scope + name_of(element);
-    if (!collision_names_.insert(name).second) {
-      context_.diagnostics.warn(location_of(element), fmt::format("a second collision '{}'", name));
-    }
     const auto shape = sdf_internal::read_shape(context_, element, name);
     if (shape) scene_.collisions.push_back({name, *shape, X_WC, looks});
   }
@@ -127,7 +136,6 @@ class SceneGatherer {
   Context& context_;
   Scene scene_;
   std::set<std::string> materials_;
-  std::set<std::string> collision_names_;
   std::vector<NamedPlacement> antennas_;
   std::vector<NamedPlacement> tags_;
 };

@@ -17,6 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 using tinyxml2::XMLElement;
 
+/// Gazebo 11 looks up the poses of links and included models by name.
+constexpr std::string_view kStandsThere = " and gets its pose, as in Gazebo 11";
+
 /// The <sdf> of the newest version in a model.config; model.sdf if it names none.
 std::string newest_sdf(const XMLElement& config) {
   std::string newest = "model.sdf";
@@ -73,6 +76,7 @@ class ModelReader {
     open_.insert(file_of(element).path);
     const std::string renamed = include == nullptr ? "" : child_text(*include, "name");
     model->name = renamed.empty() ? name_of(element) : renamed;
+    model->included = include != nullptr;
     read_into(*model, element);
     for_each_child(element, "link", [&](const XMLElement& link) { add_link(*model, link); });
     for_each_child(element, "joint", [&](const XMLElement& joint) { add_joint(*model, joint); });
@@ -112,19 +116,39 @@ class ModelReader {
           fmt::format("there is a model '{}' already: this one is left out", model->name));
       return;
     }
-    name_frame(around.scope, model->name, model->frame);
+    const Model* const first = model->included ? included_namesake(around, model->name) : nullptr;
+    if (first != nullptr) {
+      warn_of_namesake(model->name, model->frame, first->frame, kStandsThere);
+      model->frame = first->frame;
+    } else {
+      name_frame(around.scope, model->name, model->frame);
+    }
     around.scope.models.try_emplace(model->name, &model->scope);
     around.models.push_back(std::move(model));
+  }
+
+  /// The included model of that name in `around`; null if there is none.
+  template <typename Around>
+  static const Model* included_namesake(const Around& around, const std::string& name) {
+    if (around.scope.models.count(name) == 0) return nullptr;
+    const auto found =
+        std::find_if(around.models.begin(), around.models.end(),
+                     [&](const auto& model) { return model->included && model->name == name; });
+    return found == around.models.end() ? nullptr : found->get();
+  }
+
+  void warn_of_namesake(const std::string& name, const Frame& frame, const Frame& first,
+                        std::string_view consequence) {
+    context_.diagnostics.warn(
+        location_of(*frame.element),
+        fmt::format("<{}> '{}' has the name of the <{}> in line {}{}", frame.element->Name(), name,
+                    first.element->Name(), first.element->GetLineNum(), consequence));
   }
 
   /// If two have the same name, others are relative to the first.
   void name_frame(Scope& scope, const std::string& name, const Frame& frame) {
     const auto [known, is_new] = scope.frames.try_emplace(name, frame);
-    if (is_new) return;
-    context_.diagnostics.warn(
-        location_of(*frame.element),
-        fmt::format("<{}> '{}' has the name of the <{}> in line {}", frame.element->Name(), name,
-                    known->second.element->Name(), known->second.element->GetLineNum()));
+    if (!is_new) warn_of_namesake(name, frame, known->second, "");
   }
 
   void add_frame(Scope& scope, const XMLElement& element) {
@@ -134,7 +158,12 @@ class ModelReader {
 
   void add_link(Model& model, const XMLElement& element) {
     Link link{name_of(element), &element, frame_of(context_, element), ""};
-    name_frame(model.scope, link.name, link.frame);
+    const auto [first, is_new] = model.scope.frames.try_emplace(link.name, link.frame);
+    if (!is_new) {
+      const bool is_link = std::string_view(first->second.element->Name()) == "link";
+      warn_of_namesake(link.name, link.frame, first->second, is_link ? kStandsThere : "");
+      if (is_link) link.frame = first->second;
+    }
     model.links.push_back(std::move(link));
   }
 

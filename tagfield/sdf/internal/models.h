@@ -27,7 +27,8 @@ struct Link {
 struct Model {
   std::string name;
   const tinyxml2::XMLElement* element = nullptr;
-  Frame frame;  ///< In the enclosing scope.
+  bool included = false;  ///< By an <include>.
+  Frame frame;            ///< In the enclosing scope.
   Scope scope;
   std::vector<Link> links;
   std::vector<std::unique_ptr<Model>> models;

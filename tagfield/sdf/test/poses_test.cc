@@ -156,6 +156,47 @@ TEST_F(LoadWorldPoses, NumbersMissingAtItsEndAreZero) {
       << warnings()[0];
 }
 
+/// As Gazebo 11 places them, which looks up poses by name.
+TEST_F(LoadWorldPoses, LinksAndCollisionsOfTheSameNameStandWhereTheFirstDoes) {
+  const Scene scene =
+      load("<model name='m'><link name='l'>\n<pose>1 0 0 0 0 0</pose>" +
+           ball("c", "<pose>0 1 0 0 0 0</pose>") + "\n" + ball("c", "<pose>0 2 0 0 0 0</pose>") +
+           "</link>\n<link name='l'><pose>2 0 0 0 0 0</pose>" +
+           ball("c", "<pose>0 3 0 0 0 0</pose>") + ball("d", "") + "</link></model>");
+  ASSERT_EQ(scene.collisions.size(), 4U);
+  for (const std::size_t i : {0U, 1U, 2U}) expect_pose(scene.collisions[i], {1.0, 1.0, 0.0}, 0.0);
+  expect_pose(scene.collisions[3], {1.0, 0.0, 0.0}, 0.0);
+  ASSERT_EQ(warnings().size(), 3U);
+  EXPECT_NE(warnings()[0].find("world.sdf:6: <link> 'l' has the name of the <link> in line 3 and "
+                               "gets its pose, as in Gazebo 11"),
+            std::string::npos)
+      << warnings()[0];
+  EXPECT_NE(warnings()[1].find("world.sdf:5: a second collision 'm::l::c' gets"), std::string::npos)
+      << warnings()[1];
+}
+
+TEST_F(LoadWorldPoses, IncludesOfTheSameNameStandWhereTheFirstDoesAndNestedModelsDoNot) {
+  write_model("post", "<pose>0 0 9 0 0 0</pose><link name='l'>" + ball("c", "") + "</link>");
+  const std::string include = "<include><uri>model://post</uri>";
+  const auto nested = [&](const std::string& x) {
+    return "<model name='n'><pose>" + x + " 0 0 0 0 0</pose><link name='l'>" + ball("c", "") +
+           "</link></model>";
+  };
+  const Scene scene = load(
+      "<model name='m'><link name='base'/>" + include + "<pose>0 1 0 0 0 0</pose></include>\n" +
+      include + "<pose>0 2 0 0 0 0</pose></include>" + nested("3") + nested("4") + "</model>");
+  ASSERT_EQ(scene.collisions.size(), 4U);
+  expect_pose(scene.collisions[0], {0.0, 1.0, 0.0}, 0.0);
+  expect_pose(scene.collisions[1], {0.0, 1.0, 0.0}, 0.0);
+  expect_pose(scene.collisions[2], {3.0, 0.0, 0.0}, 0.0);
+  expect_pose(scene.collisions[3], {4.0, 0.0, 0.0}, 0.0);
+  ASSERT_EQ(warnings().size(), 2U);
+  EXPECT_NE(warnings()[0].find("world.sdf:4: <include> 'post' has the name of the <include> in "
+                               "line 3 and gets its pose"),
+            std::string::npos)
+      << warnings()[0];
+}
+
 TEST_F(LoadWorldPoses, FramesInACircleAreNowhere) {
   load(
       "<model name='m'><frame name='f' attached_to='g'/><frame name='g' attached_to='f'/>"
