@@ -79,21 +79,18 @@ std::vector<Neighbour> nearest(const References& references, const RssiVector& r
   return neighbours;
 }
 
-/// Correlation between the distance of tags and the difference of their RSSI, over all pairs;
-/// `order` permutes their positions.
+/// Sum over all pairs of tags of their distance times the difference of their RSSI; `order`
+/// permutes their positions, of which all else in the correlation of the two is independent.
 double likeness(const References& references, const std::vector<std::vector<double>>& signal_db,
                 const std::vector<std::size_t>& order) {
-  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  double sum = 0.0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     for (std::size_t j = i + 1; j < order.size(); ++j) {
       const double apart = (references.tags[order[i]].p_WT - references.tags[order[j]].p_WT).norm();
-      const double differ = signal_db[i][j];
-      n += 1.0, x += apart, y += differ;
-      xx += apart * apart, xy += apart * differ, yy += differ * differ;
+      sum += apart * signal_db[i][j];
     }
   }
-  const double spread = (xx - x * x / n) * (yy - y * y / n);
-  return spread > 0.0 ? (xy - x * y / n) / std::sqrt(spread) : 0.0;
+  return sum;
 }
 
 /// Whether tags close to each other have similar RSSI, by Mantel's test (Cancer Research 27, 1967):
@@ -110,14 +107,14 @@ bool go_by_place(const References& references) {
           signal_distance(references.tags[i].rssi, references.tags[j].rssi, references.unread_dbm);
     }
   }
-  const double told = likeness(references, signal_db, order);
+  const double as_given = likeness(references, signal_db, order);
   RandomStream stream(1, Purpose::kTagSearch, count);
   int as_good = 0;
   for (int k = 0; k < kOrders; ++k) {
     for (std::size_t left = count; left > 1; --left) {
       std::swap(order[left - 1], order[static_cast<std::size_t>(stream() % left)]);
     }
-    if (likeness(references, signal_db, order) >= told) ++as_good;
+    if (likeness(references, signal_db, order) >= as_given) ++as_good;
   }
   return 100 * as_good <= kOrders;
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -54,6 +55,32 @@ TEST(RssiFit, GainsOfTheSecondDegreeAreExplained) {
   EXPECT_GT(misfit_at(bins, law, p_WT).residuals.abs().maxCoeff(), 1.0);
   law.pattern_sigma_db = 1e4;
   EXPECT_LT(misfit_at(bins, law, p_WT).residuals.abs().maxCoeff(), 1e-4);
+}
+
+/// With a half-power width of 90° each way has a gain of cos² of the angle off boresight.
+TEST(RssiFit, AStatedLobeIsExplained) {
+  constexpr double kFrontToBack_dB = 6.0;
+  Rng rng(6);
+  const Eigen::Vector3d p_WT(4.0, 2.5, 1.1);
+  LocalizationProblem problem = directed_problem(p_WT, 35.0, 0.0, rng);
+  const auto& poses = problem.tracks.at("a").X_WA;
+  std::size_t clipped = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::Vector3d p_AT = poses[i].second.inverse() * p_WT;
+    const double cosine = p_AT.x() / p_AT.norm();
+    const double least = -2.0 * kFrontToBack_dB;
+    const double gain = cosine > 0.0 ? std::max(40.0 * std::log10(cosine), least) : least;
+    if (gain == least) ++clipped;
+    problem.samples["t"]["a"][i].rssi_dbm = -30.0 - 35.0 * std::log10(p_AT.norm()) + gain;
+  }
+  ASSERT_GT(clipped, poses.size() / 4);
+  Lobe lobe;
+  lobe.beam_width_deg = 90.0;
+  lobe.front_to_back_db = kFrontToBack_dB;
+  PathLossLaw law;
+  law.slope_db = 35.0;
+  EXPECT_GT(misfit_at(bins_of(problem), law, p_WT).residuals.abs().maxCoeff(), 3.0);
+  EXPECT_LT(misfit_at(bins_of(problem, lobe), law, p_WT).residuals.abs().maxCoeff(), 1e-9);
 }
 
 /// The parabola's cost is that of a fit with each slope, whatever else the law says.
