@@ -36,6 +36,13 @@ void add_environment(std::vector<std::string>& folders, const char* variable) {
   for (std::string folder; std::getline(list, folder, ':');) add_folder(folders, folder);
 }
 
+/// Where Gazebo 11 looks for relative paths in one of its resource folders.
+void add_resource_folder(std::vector<std::string>& roots, const fs::path& folder) {
+  for (const char* inside : {"", "models", "media/models", "Media/models"}) {
+    add_folder(roots, folder / inside);
+  }
+}
+
 void add_home(std::vector<std::string>& folders, const char* folder) {
   const char* home = std::getenv("HOME");
   if (home != nullptr && *home != '\0') add_folder(folders, fs::path(home) / folder);
@@ -249,6 +256,10 @@ ResourcePaths resource_paths(const std::string& world_path,
   add_home(paths.folders, ".gazebo/models");
   add_folder(paths.folders, "/usr/share/gazebo-11/models");
   if (world_folder.filename() == "worlds") add_folder(paths.roots, world_folder.parent_path());
+  std::vector<std::string> resources;
+  add_environment(resources, "GAZEBO_RESOURCE_PATH");
+  add_folder(resources, "/usr/share/gazebo-11");
+  for (const std::string& folder : resources) add_resource_folder(paths.roots, folder);
   for (const char* variable : {"GZ_FUEL_CACHE_PATH", "IGN_FUEL_CACHE_PATH"}) {
     add_environment(paths.fuel, variable);
   }

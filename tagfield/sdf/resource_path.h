@@ -20,8 +20,9 @@ struct ResourcePaths {
 /// the folders in the environment variables SDF_PATH, GAZEBO_MODEL_PATH, IGN_GAZEBO_RESOURCE_PATH
 /// and GZ_SIM_RESOURCE_PATH (separated by ':'); the models that Gazebo has downloaded
 /// (~/.gazebo/models) and those shipped with Gazebo 11. Folders that don't exist are left out.
-/// Relative paths are also searched for in the parent of a folder called `worlds`. Fuel's caches
-/// are GZ_FUEL_CACHE_PATH, IGN_FUEL_CACHE_PATH, ~/.gz/fuel and ~/.ignition/fuel.
+/// Relative paths are also searched for in the parent of a folder called `worlds`, and as Gazebo 11
+/// does in the folders of GAZEBO_RESOURCE_PATH. Fuel's caches are GZ_FUEL_CACHE_PATH,
+/// IGN_FUEL_CACHE_PATH, ~/.gz/fuel and ~/.ignition/fuel.
 ResourcePaths resource_paths(const std::string& world_path,
                              const std::vector<std::string>& search_paths);
 
@@ -33,8 +34,9 @@ struct FoundResource {
 
 /// The file or folder that `uri` names:
 /// - `model://NAME/rest` and `package://NAME/rest`: NAME/rest in the first folder that has it,
-/// - `file://PATH` and absolute paths: that path,
-/// - relative paths: beside `naming_file` (the file that contains the URI), then in the folders,
+/// - absolute paths, `file://` or not: that path,
+/// - relative paths, `file://` or not: beside `naming_file` (the file that contains the URI), then
+///   in the folders; NAME/rest is also rest in a folder called NAME,
 /// - `https://FUEL/1.0/OWNER/models/NAME`: in Fuel's caches, else as model://NAME.
 /// If nothing exists under that name, it is searched for ignoring case (an oddity). A URI with any
 /// other scheme is never found.

@@ -25,6 +25,7 @@ class ResourcePath : public WorldTest {
 
   static constexpr const char* kVariables[] = {"SDF_PATH",
                                                "GAZEBO_MODEL_PATH",
+                                               "GAZEBO_RESOURCE_PATH",
                                                "IGN_GAZEBO_RESOURCE_PATH",
                                                "GZ_SIM_RESOURCE_PATH",
                                                "GZ_FUEL_CACHE_PATH",
@@ -115,6 +116,22 @@ TEST_F(ResourcePath, PathsThatBeginWithTheNameOfAFolderOfModels) {
   EXPECT_EQ(find("models/crate/a.dae", world, paths), mesh);
   EXPECT_EQ(find("file://models/../secret", world, paths), "");
   EXPECT_EQ(find("model://models/crate/a.dae", world, paths), "");
+}
+
+/// As Gazebo 11 does.
+TEST_F(ResourcePath, RelativePathsInGazebosResourceFolders) {
+  const std::string world = write("elsewhere/w.sdf", "");
+  setenv("GAZEBO_RESOURCE_PATH", (path_of("nosuch") + ":" + path_of("res")).c_str(), 1);
+  for (const std::string folder : {"", "models/", "media/models/", "Media/models/"}) {
+    const std::string mesh = write("res/" + folder + "a.dae", "");
+    const ResourcePaths paths = resource_paths(world, {});
+    EXPECT_EQ(find("file://a.dae", world, paths), mesh);
+    EXPECT_EQ(find("a.dae", world, paths), mesh);
+    EXPECT_EQ(find("model://a.dae", world, paths), "");
+    std::filesystem::remove(mesh);
+  }
+  write("res/worlds/a.dae", "");
+  EXPECT_EQ(find("file://a.dae", world, resource_paths(world, {})), "");
 }
 
 TEST_F(ResourcePath, NamesInAnotherCaseAreFoundWithAWord) {
