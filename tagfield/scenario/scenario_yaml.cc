@@ -59,13 +59,13 @@ Eigen::Vector2d waypoint_of(const YamlValue& value) {
 
 RobotBody robot_body_of(YamlMap map, const RadioWorldOptions& world) {
   RobotBody body;
-  const YamlValue value = map.at("size");
+  const YamlValue value = map.at("size", "[length, width, height] in m");
   const std::vector<double> size = value.lengths(3, 3);
   if (!(size[0] > 0.0 && size[1] > 0.0 && size[2] > 0.0)) {
     value.fail("must be three numbers greater than 0");
   }
   body.size_m = {size[0], size[1], size[2]};
-  body.material = material_in(world, map.at("material"));
+  body.material = material_in(world, map.at("material", "the name of a material"));
   map.finish();
   return body;
 }
@@ -74,7 +74,7 @@ RobotSpec robot_of(YamlMap map, const RadioWorldOptions& world) {
   RobotSpec robot;
   robot.location = map.self().location();
   robot.name = map.at("name").text();
-  const std::vector<double> start = map.at("start").lengths(3, 3);
+  const std::vector<double> start = map.at("start", "[x, y, yaw] in m and rad").lengths(3, 3);
   robot.start = {start[0], start[1], start[2]};
   robot.drive.wheel_radius_m = map.number("wheel_radius_m", robot.drive.wheel_radius_m, kPositive);
   robot.drive.track_m = map.number("track_m", robot.drive.track_m, kPositive);
@@ -123,7 +123,9 @@ AntennaSpec antenna_of(YamlMap map, const RadioDefaults& radio, Diagnostics& dia
   parameters.model = antenna_model_of(map, radio, diagnostics);
   antenna.on = map.text("on", "");
   const bool is_recorded = map.has("recorded");
-  if (!is_recorded || map.has("pose")) antenna.X_PA = pose_of(map.at("pose"));
+  if (!is_recorded || map.has("pose"))
+    antenna.X_PA =
+        pose_of(map.at("pose", "[x, y, z] or [x, y, z, roll, pitch, yaw], in m and rad"));
   if (map.has("lift")) antenna.lift = lift_of(YamlMap(map.at("lift")));
   if (is_recorded) {
     antenna.recorded = read_recorded_antenna(resolve_path(map.at("recorded")), parameters.name);
@@ -153,7 +155,8 @@ TagSpec tag_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics
     if (map.has("position")) map.self().fail("has both 'position' and 'trajectory'");
     tag.motion = trajectory_of(map.at("trajectory"));
   } else {
-    tag.motion = {{Time{}, from_translation(position_of(map.at("position")))}};
+    const YamlValue position = map.at("position", "[x, y, z] in m");
+    tag.motion = {{Time{}, from_translation(position_of(position))}};
   }
   if (map.has("rpy"))
     turn(tag.motion, from_xyz_rpy({0, 0, 0}, position_of(map.at("rpy"))).rotation);

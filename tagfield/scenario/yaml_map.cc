@@ -262,10 +262,12 @@ bool YamlMap::has(const std::string& key) {
   return value.IsDefined() && !value.IsNull();
 }
 
-YamlValue YamlMap::at(const std::string& key) {
+YamlValue YamlMap::at(const std::string& key, std::string_view expected) {
   if (!has(key)) {
     complain_of_slip(key);
-    self_.fail(fmt::format("has no '{}'", key));
+    const std::string form =
+        expected.empty() ? "" : fmt::format(" (expected {}: {})", key, expected);
+    self_.fail(fmt::format("has no '{}'{}", key, form));
   }
   const std::string path = self_.path().empty() ? key : self_.path() + "." + key;
   return {self_.node()[key], self_.file(), path};

@@ -61,8 +61,9 @@ class YamlMap {
   explicit YamlMap(YamlValue value);
 
   [[nodiscard]] bool has(const std::string& key);
-  /// The value under `key`; throws Error if there is none.
-  YamlValue at(const std::string& key);
+  /// The value under `key`; throws Error if there is none, which says what was expected if
+  /// `expected` does.
+  YamlValue at(const std::string& key, std::string_view expected = "");
   [[nodiscard]] const YamlValue& self() const { return self_; }
 
   // The value under `key`, or `otherwise`.

@@ -66,7 +66,7 @@ TEST(RssiFit, AStatedLobeIsExplained) {
   const auto& poses = problem.tracks.at("a").X_WA;
   std::size_t clipped = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Eigen::Vector3d p_AT = poses[i].second.inverse() * p_WT;
+    const Eigen::Vector3d p_AT = poses[i].X_WB.inverse() * p_WT;
     const double cosine = p_AT.x() / p_AT.norm();
     const double least = -2.0 * kFrontToBack_dB;
     const double gain = cosine > 0.0 ? std::max(40.0 * std::log10(cosine), least) : least;

@@ -168,7 +168,7 @@ ObstacleSpec obstacle_of(YamlMap map, const RadioWorldOptions& world) {
   if (map.has("radius_m")) {
     obstacle.radius_m = map.at("radius_m").number(kPositive);
   } else {
-    const YamlValue value = map.at("size");
+    const YamlValue value = map.at("size", "[length, width] in m, or radius_m");
     const std::vector<double> size = value.lengths(2, 2);
     if (!(size[0] > 0.0 && size[1] > 0.0)) value.fail("must be two numbers greater than 0");
     obstacle.size_m = {size[0], size[1]};

@@ -14,7 +14,7 @@ ZoneSpec zone_of(YamlMap map) {
   ZoneSpec zone;
   zone.location = map.self().location();
   zone.name = map.at("name").text();
-  zone.box_W = box_of(map.at("box"));
+  zone.box_W = box_of(map.at("box", "[x0, y0, x1, y1] or [x0, y0, z0, x1, y1, z1], in m"));
   for (const YamlValue& reader : map.list("readers")) zone.readers.push_back(reader.text());
   map.finish();
   return zone;
