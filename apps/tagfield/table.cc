@@ -8,6 +8,7 @@
 #include <map>
 
 #include "tagfield/report/text.h"
+#include "tagfield/scenario/scenario.h"
 
 namespace tagfield {
 namespace {
@@ -194,6 +195,8 @@ std::string navigation_lines(const Summary& summary) {
 /// The method used, if it was not requested by name.
 std::string method_line(const Summary& summary) {
   if (summary.method_why.empty()) return "";
+  if (summary.method == kNoLocalization)
+    return fmt::format("no positions: {}\n", summary.method_why);
   return fmt::format("method: {}, chosen by {}: {}\n", summary.method, summary.method_asked,
                      summary.method_why);
 }

@@ -2,14 +2,17 @@
 #include "tagfield/experiment/experiment.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <mutex>
 #include <set>
+#include <utility>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
 #include "tagfield/experiment/internal/navigation_summary.h"
+#include "tagfield/experiment/internal/stoppable.h"
 #include "tagfield/experiment/inventory.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/experiment/known_beforehand.h"
@@ -119,12 +122,14 @@ std::vector<ComparedMethod> compared(const Scenario& scenario, const SeedRun& ru
   return others;
 }
 
-/// Fills in an inventory: all tags as not located.
-void leave_unlocated(const Scenario& scenario, const std::string& why, SeedRun& run) {
+/// Fills in all tags as not located: `why` of the run, `reason` of each tag.
+void leave_unlocated(const Scenario& scenario, const std::string& why, const std::string& reason,
+                     SeedRun& run) {
   run.method = kNoLocalization;
   run.method_why = why;
+  run.estimates.clear();
   for (const std::string& tag : tags_of(scenario)) {
-    run.estimates.push_back({tag, Verdict::kNotLocated, "not asked for: " + why, {}, 0});
+    run.estimates.push_back({tag, Verdict::kNotLocated, reason, {}, 0});
   }
   run.outcomes = judged(run.estimates, run.recording.reads, run.recording.truth, {}, run.seed);
 }
@@ -170,6 +175,32 @@ std::string methods_of(const std::vector<SeedRun>& runs) {
   return names;
 }
 
+/// Fills in all results of localization. Throws LocatingStopped.
+void locate_tags(const Scenario& scenario, const RunControl& control, SeedRun& run,
+                 Diagnostics& diagnostics) {
+  LocalizationOptions options = localization_options(scenario, control.threads);
+  // The few reads of an interrupted simulation are located.
+  const std::atomic<bool>* const stop = stopped(control) ? nullptr : control.stop;
+  options.on_locating = stoppable(control.on_stage, stop);
+  options.known.trace = stoppable(std::move(options.known.trace), stop);
+  options.known.map_error = map_error_of(scenario, run);
+  const Recording& recording = run.recording;
+  LocalizationResult result =
+      located(scenario, recording, recording.believed_poses, options, diagnostics);
+  run.estimates = std::move(result.estimates);
+  run.method = result.method;
+  run.method_why = result.why;
+  run.corrected_poses = std::move(result.corrected_poses);
+  run.outcomes = outcomes_of(run, options, run.estimates);
+  run.compared = compared(scenario, run, options);
+  if (scenario.pose.source == PoseSource::kTrue) return;
+  LocalizationOptions exact = options;
+  exact.known.pose_error = PoseErrorModel{};
+  exact.known.map_error.reset();
+  result = located(scenario, recording, recording.truth.antenna_poses, exact, diagnostics);
+  run.errors_with_true_pose_m = errors_of(outcomes_of(run, options, result.estimates));
+}
+
 /// The run of a seed other than the first; only the first one goes to the outlets and keeps its
 /// recording.
 SeedRun another_seed(const Scenario& scenario, std::uint64_t seed, RunControl control,
@@ -183,7 +214,7 @@ SeedRun another_seed(const Scenario& scenario, std::uint64_t seed, RunControl co
   control.outlets = {};
   control.navigation = nullptr;
   SeedRun run = simulate(scenario, seed, control, world);
-  localize(scenario, run, 1, warnings);
+  localize(scenario, run, control, warnings);
   run.recording = {};
   run.corrected_poses = {};
   if (store != nullptr && run.complete) store->add(key, to_json_line(run, warnings.warnings()));
@@ -236,34 +267,22 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
   return run;
 }
 
-void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics,
-              const OnLocating& on_locating) {
+void localize(const Scenario& scenario, SeedRun& run, const RunControl& control,
+              Diagnostics& diagnostics) {
   const std::string why_not = why_inventory_alone(scenario);
   if (!why_not.empty() || all_antennas_rest(scenario)) {
     run.inventory = inventory_of(scenario, run.recording.reads, run.simulated_s);
   }
   if (!why_not.empty()) {
-    leave_unlocated(scenario, why_not, run);
+    leave_unlocated(scenario, why_not, "not asked for: " + why_not, run);
     return;
   }
-  LocalizationOptions options = localization_options(scenario, threads);
-  options.on_locating = on_locating;
-  options.known.map_error = map_error_of(scenario, run);
-  const Recording& recording = run.recording;
-  LocalizationResult result =
-      located(scenario, recording, recording.believed_poses, options, diagnostics);
-  run.estimates = std::move(result.estimates);
-  run.method = result.method;
-  run.method_why = result.why;
-  run.corrected_poses = std::move(result.corrected_poses);
-  run.outcomes = outcomes_of(run, options, run.estimates);
-  run.compared = compared(scenario, run, options);
-  if (scenario.pose.source == PoseSource::kTrue) return;
-  LocalizationOptions exact = options;
-  exact.known.pose_error = PoseErrorModel{};
-  exact.known.map_error.reset();
-  result = located(scenario, recording, recording.truth.antenna_poses, exact, diagnostics);
-  run.errors_with_true_pose_m = errors_of(outcomes_of(run, options, result.estimates));
+  try {
+    locate_tags(scenario, control, run, diagnostics);
+  } catch (const LocatingStopped&) {
+    run.complete = false;
+    leave_unlocated(scenario, "localization was interrupted", "interrupted", run);
+  }
 }
 
 std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, std::size_t count,
@@ -281,7 +300,6 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
     of_one.on_stage = nullptr;
     of_one.threads = 1;
   }
-  const int threads_inside = count > 1 ? 1 : control.threads;
   parallel_for(count, control.threads, [&](std::size_t i) {
     if (i > 0 && stopped(control)) return;
     begun[i] = 1;
@@ -289,7 +307,7 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
       runs[i] = another_seed(scenario, first + i, of_one, world, store, warnings[i]);
     } else {
       runs[i] = simulate(scenario, first, of_one, world);
-      localize(scenario, runs[i], threads_inside, warnings[i], of_one.on_stage);
+      localize(scenario, runs[i], of_one, warnings[i]);
     }
     const std::lock_guard lock(progress_mutex);
     finished += 1.0;

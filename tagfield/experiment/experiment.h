@@ -55,9 +55,11 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
 std::optional<MapError> map_error_of(const Scenario& scenario, const SeedRun& run);
 
 /// Locates the tags from the run's reads and believed poses, unless localization is impossible or
-/// not requested (why_inventory_alone()), and fills in all results.
-void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics,
-              const OnLocating& on_locating = {});
+/// not requested (why_inventory_alone()), and fills in all results. Of `control`, `threads`,
+/// `on_stage` and `stop` are used: once that is set, the run is not complete and its tags are not
+/// located, except that reads of a simulation that was stopped before are located to the end.
+void localize(const Scenario& scenario, SeedRun& run, const RunControl& control,
+              Diagnostics& diagnostics);
 
 class RunStore;  // of store/run_store.h
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tagfield/channel/radio_world.h"
+#include "tagfield/field/radio_air.h"
 #include "tagfield/propagation/trace_paths.h"
 #include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/robot_spec.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr double kLongRun_s = 600.0;
 constexpr double kLongTrial_s = 10.0;
 constexpr std::size_t kTagsTried = 20;
+constexpr std::size_t kTagImagesTried = 3;
 
 using Clock = std::chrono::steady_clock;
 
@@ -45,8 +47,15 @@ double updates_of(const Scenario& scenario, const AntennaSpec& antenna) {
   return seconds * antenna.parameters.rate_hz;
 }
 
+/// Few tags at rest keep their images from one update to the next.
+bool keep_images(const Scenario& scenario) {
+  return scenario.tags.size() <= kMaxTagsWithImages &&
+         std::none_of(scenario.tags.begin(), scenario.tags.end(), moves);
+}
+
 struct Trial {
-  double seconds = 0.0;
+  double once = 0.0;    ///< For the images of tags that keep them [s].
+  double update = 0.0;  ///< For each update [s].
   std::size_t images = 0;
 };
 
@@ -55,18 +64,28 @@ Trial try_order(const Scenario& scenario, const Eigen::Vector3d& p_W, int order)
   TraceOptions options;
   options.order = order;
   const RadioScene& scene = scenario.radio_world->scene;
+  const bool of_tags = keep_images(scenario);
+  const std::size_t tried = std::min(of_tags ? kTagImagesTried : kTagsTried, scenario.tags.size());
+  const double all = static_cast<double>(scenario.tags.size()) / static_cast<double>(tried);
+  double for_images = 0.0;
+  const auto images_at = [&](const Eigen::Vector3d& p) {
+    const auto start = Clock::now();
+    ImageSet images = images_of(scene, p, options);
+    for_images += seconds_since(start);
+    return images;
+  };
   const auto start = Clock::now();
-  const ImageSet images = images_of(scene, p_W, options);
-  const double for_images = seconds_since(start);
+  ImageSet images = of_tags ? ImageSet{} : images_at(p_W);
   std::vector<RadioPath> paths;
-  const std::size_t tried = std::min(kTagsTried, scenario.tags.size());
   for (std::size_t i = 0; i < tried; ++i) {
     const TagSpec& tag = scenario.tags[i * scenario.tags.size() / tried];
-    trace_paths(scene, images, tag.motion.front().X_WB.translation, options, paths);
+    const Eigen::Vector3d& p_WT = tag.motion.front().X_WB.translation;
+    if (of_tags) images = images_at(p_WT);
+    trace_paths(scene, images, of_tags ? p_W : p_WT, options, paths);
   }
-  const double for_paths = seconds_since(start) - for_images;
-  const double all = static_cast<double>(scenario.tags.size()) / static_cast<double>(tried);
-  return {for_images + for_paths * all, images.images.size()};
+  const double for_paths = (seconds_since(start) - for_images) * all;
+  return of_tags ? Trial{for_images * all, for_paths, images.images.size()}
+                 : Trial{0.0, for_images + for_paths, images.images.size()};
 }
 
 /// The moving antenna with the highest order of reflection; null if none has any.
@@ -101,19 +120,22 @@ std::optional<TracingForecast> tracing_forecast(const Scenario& scenario, int or
     if (order_of(other) > 0) updates += updates_of(scenario, other);
   }
   const Eigen::Vector3d p_W = start_of(scenario, *antenna);
+  const auto forecast_of = [&](const Trial& trial, int of_order, bool is_measured) {
+    return TracingForecast{of_order, trial.once + trial.update * updates, is_measured};
+  };
   Trial trial = try_order(scenario, p_W, 0);
-  TracingForecast forecast{0, trial.seconds * updates, true};
+  TracingForecast forecast = forecast_of(trial, 0, true);
   // Each image is mirrored at no more facets than the antenna itself.
   double max_growth = 1.0;
   for (int next = 1; next <= order; ++next) {
-    const double max_seconds = trial.seconds * max_growth;
-    if (forecast.is_measured && max_seconds <= kLongTrial_s) {
+    if (forecast.is_measured && (trial.once + trial.update) * max_growth <= kLongTrial_s) {
       trial = try_order(scenario, p_W, next);
       if (next == 1) max_growth = std::max(1.0, static_cast<double>(trial.images));
-      forecast = {next, trial.seconds * updates, true};
+      forecast = forecast_of(trial, next, true);
     } else {
-      trial.seconds = max_seconds;
-      forecast = {next, trial.seconds * updates, false};
+      trial.once *= max_growth;
+      trial.update *= max_growth;
+      forecast = forecast_of(trial, next, false);
     }
   }
   return forecast;

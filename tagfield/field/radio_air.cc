@@ -37,10 +37,6 @@ Eigen::Vector3d nowhere() {
 /// Enough for the images of several thousand tags in a hall at order 2.
 constexpr std::size_t kMaxImageBytes = std::size_t{512} << 20U;
 
-/// With at most this many tags, computing their images once is cheaper than computing the antenna's
-/// at every update.
-constexpr std::size_t kFewTags = 64;
-
 bool takes_inventory(const RadioModel& model) { return model.gen2 && model.effects.inventory; }
 
 }  // namespace
@@ -441,7 +437,7 @@ const ImageSet* RadioAir::tag_images(const RadioView& view, std::uint32_t slot,
 TagEnd RadioAir::tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopulation& tags,
                          RadioView& view) {
   TagEnd tag{tags.model(slot), tags.pose(slot), tags.key(slot)};
-  if (tags.size() <= kFewTags) tag.images = tag_images(view, slot, tag.X_WT);
+  if (tags.size() <= kMaxTagsWithImages) tag.images = tag_images(view, slot, tag.X_WT);
   if (tag.images == nullptr && !view.images) add_images(antenna, view);
   surround(tag, slot, *ran_to_, tags, antenna, view);
   if (slot < antenna.memories.size()) tag.memory = &antenna.memories[slot];

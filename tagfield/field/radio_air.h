@@ -24,6 +24,10 @@ namespace tagfield {
 
 struct AirAntenna;
 
+/// With at most this many tags, those at rest keep their images, which is cheaper than computing
+/// the antenna's at every update.
+inline constexpr std::size_t kMaxTagsWithImages = 64;
+
 /// Generates the reads of antennas update by update. Without an inventory, an antenna reads every
 /// tag within range once per update. With one, slots continue between updates: the reads since the
 /// last update are returned by the next one, each with its own stamp, with the poses of both ends

@@ -7,6 +7,7 @@
 #include "tagfield/base/error.h"
 #include "tagfield/propagation/internal/beam.h"
 #include "tagfield/propagation/internal/check_options.h"
+#include "tagfield/propagation/internal/facet_blocks.h"
 #include "tagfield/propagation/trace_paths.h"
 
 namespace tagfield {
@@ -20,12 +21,17 @@ class Builder {
   Builder(const RadioScene& scene, const Eigen::Vector3d& p_WA, const TraceOptions& options)
       : scene_(scene), options_(options), inside_(shells_around(scene, p_WA)) {
     set_.p_WA = p_WA;
+    sides_.assign(scene.facet_blocks().size() * kFacetLanes, 0.0F);
+    for (std::size_t i = 0; i < scene.facets().size(); ++i) {
+      const Facet& facet = scene.facets()[i];
+      if (!facet.two_sided) sides_[i] = static_cast<float>(mirrors(facet));
+    }
   }
 
   ImageSet build() {
     for (int order = 1; order <= options_.order; ++order) {
       const auto end = static_cast<std::int32_t>(set_.images.size());
-      if (order == 1) mirror(-1);
+      if (order == 1) mirror_antenna();
       for (; order > 1 && first_ < end; ++first_) mirror(first_);
     }
     set_.beams = beam_blocks(set_.images, beams_, set_.p_WA);
@@ -34,11 +40,17 @@ class Builder {
   }
 
  private:
-  /// Adds all images of one image, or of the antenna.
+  void mirror_antenna() {
+    for (std::uint32_t facet = 0; facet < scene_.facets().size(); ++facet) add(-1, facet);
+  }
+
+  /// Adds all images of one image.
   void mirror(std::int32_t parent) {
-    for (std::uint32_t facet = 0; facet < scene_.facets().size(); ++facet) {
-      if (parent >= 0 && !is_before_mirror(at(parent), facet)) continue;
-      add(parent, facet);
+    candidates_.clear();
+    add_facets_in(scene_.facet_blocks(), sides_, beams_[static_cast<std::size_t>(parent)],
+                  at(parent), instruction_sets().back(), candidates_);
+    for (const std::uint32_t facet : candidates_) {
+      if (is_before_mirror(at(parent), facet)) add(parent, facet);
     }
   }
 
@@ -56,13 +68,15 @@ class Builder {
            scene_.reaches(image.facet, is_front(image.facet, image.normal_W), facet);
   }
 
+  /// Which side of a facet of a closed surface reflects: 1 its front, -1 its back.
+  [[nodiscard]] int mirrors(const Facet& facet) const { return inside_[facet.shell] != 0 ? -1 : 1; }
+
   /// 1 if the facet reflects a wave from `p` on its front, -1 if on its back, 0 if not at all.
   [[nodiscard]] int side(const Facet& facet, const Eigen::Vector3d& p) const {
     const double height = facet.normal_W.dot(p) - facet.offset_m;
     const int there = height > kMinHeight ? 1 : (height < -kMinHeight ? -1 : 0);
     if (facet.two_sided) return there;
-    const int mirrors = inside_[facet.shell] != 0 ? -1 : 1;
-    return there == mirrors ? there : 0;
+    return there == mirrors(facet) ? there : 0;
   }
 
   void add(std::int32_t parent, std::uint32_t index) {
@@ -113,9 +127,11 @@ class Builder {
   const RadioScene& scene_;
   const TraceOptions& options_;
   std::vector<char> inside_;
+  ReflectingSides sides_;
   ImageSet set_;
   std::vector<BeamSides> beams_;  ///< Of each image.
-  std::int32_t first_ = 0;        ///< Index of the first image that has not been mirrored yet.
+  std::vector<std::uint32_t> candidates_;
+  std::int32_t first_ = 0;  ///< Index of the first image that has not been mirrored yet.
 };
 
 }  // namespace

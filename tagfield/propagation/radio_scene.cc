@@ -7,6 +7,7 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/range_check.h"
+#include "tagfield/propagation/internal/facet_blocks.h"
 #include "tagfield/propagation/internal/flat_pieces.h"
 #include "tagfield/propagation/internal/welded_mesh.h"
 #include "tagfield/world/triangulate.h"
@@ -93,6 +94,7 @@ RadioScene::RadioScene(const Scene& scene, const RadioSceneOptions& options)
       add_solid(collision, solid, options.min_facet_m2);
     }
   }
+  facet_blocks_ = tagfield::facet_blocks(facets_);
   sides_ = table_of_sides(facets_);
 }
 

@@ -40,6 +40,18 @@ struct Facet {
   std::vector<std::array<Eigen::Vector2d, 3>> triangles;
 };
 
+/// Bounding spheres [m, world] and planes of facets in single precision, one facet per lane, for a
+/// fast first test of what a beam meets. Unused lanes have a radius of −∞, unbounded facets of ∞.
+inline constexpr std::size_t kFacetLanes = 16;
+struct alignas(64) FacetBlock {
+  using Lanes = std::array<float, kFacetLanes>;
+  std::array<Lanes, 3> centres{};
+  Lanes radii{};  ///< With what rounding may take.
+  std::array<Lanes, 3> normals{};
+  Lanes offsets{};
+  Lanes slacks{};  ///< What rounding may take from a height above the plane [m].
+};
+
 struct RadioSceneOptions {
   /// Smaller flat pieces don't reflect: below about a squared wavelength they scatter instead.
   double min_facet_m2 = 0.1;
@@ -72,6 +84,8 @@ class RadioScene {
   explicit RadioScene(const Scene& scene, const RadioSceneOptions& options = {});
 
   [[nodiscard]] const std::vector<Facet>& facets() const { return facets_; }
+  /// kFacetLanes facets each, in order.
+  [[nodiscard]] const std::vector<FacetBlock>& facet_blocks() const { return facet_blocks_; }
   [[nodiscard]] const LeftOut& left_out() const { return left_out_; }
   [[nodiscard]] const std::vector<Shell>& shells() const { return shells_; }
   [[nodiscard]] bool is_opaque(std::uint32_t solid) const { return opaque_[solid] != 0; }
@@ -94,6 +108,7 @@ class RadioScene {
   RayScene rays_;
   std::vector<char> opaque_;
   std::vector<Facet> facets_;
+  std::vector<FacetBlock> facet_blocks_;
   LeftOut left_out_;
   std::vector<Shell> shells_;
   std::vector<std::size_t> first_triangles_;

@@ -50,7 +50,7 @@ class SceneGatherer {
                  const std::string& scope, const ModelState& state) {
     const XMLElement& element = *model.element;
     sdf_internal::warn_of_unknown_children(element, context_.diagnostics);
-    if (model.links.empty() && model.models.empty()) {
+    if (model.links.empty() && model.models.empty() && !model.lacks_include) {
       context_.diagnostics.warn(location_of(element),
                                 fmt::format("model '{}' has no links", model.name));
     }

@@ -2,13 +2,16 @@
 #include "tagfield/experiment/internal/condition_run.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <iterator>
+#include <utility>
 
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/internal/faults.h"
 #include "tagfield/experiment/internal/read_loss.h"
 #include "tagfield/experiment/internal/record.h"
+#include "tagfield/experiment/internal/stoppable.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/localization/bound.h"
 #include "tagfield/localization/locate.h"
@@ -21,11 +24,14 @@ namespace {
 class Given {
  public:
   Given(const PreparedCondition& condition, const Recording& recording,
-        const KnownBeforehand& known, Diagnostics& diagnostics)
+        const KnownBeforehand& known, const std::atomic<bool>* stop, Diagnostics& diagnostics)
       : condition_(condition),
         recording_(recording),
         known_(known),
-        problem_(make_problem(recording.reads, recording.believed_poses, known, diagnostics)) {}
+        problem_(make_problem(recording.reads, recording.believed_poses, known, diagnostics)) {
+    problem_.on_locating = stoppable(std::move(problem_.on_locating), stop);
+    problem_.trace = stoppable(std::move(problem_.trace), stop);
+  }
 
   [[nodiscard]] const LocalizationProblem& problem() const { return problem_; }
 
@@ -128,6 +134,25 @@ void spoil(const Condition& condition, std::uint64_t seed, Recording& recording)
   if (condition.fault) add_faults(*condition.fault, seed, recording);
 }
 
+/// A run by each method, in order. Throws LocatingStopped.
+std::vector<MethodRun> run_methods(const PreparedCondition& condition, const Recorded& made,
+                                   const RunControl& control, Diagnostics& diagnostics) {
+  const Recording& recording = made.recording;
+  Given shared(condition, recording, with_map(condition.known, made.map_error), control.stop,
+               diagnostics);
+  std::vector<MethodRun> runs;
+  for (const PreparedMethod& method : condition.methods) {
+    if (stopped(control)) throw LocatingStopped{};
+    std::optional<Given> own;
+    if (method.known) {
+      own.emplace(condition, recording, with_map(*method.known, made.map_error), control.stop,
+                  diagnostics);
+    }
+    runs.push_back(run_method(method, condition, recording, own ? *own : shared, diagnostics));
+  }
+  return runs;
+}
+
 }  // namespace
 
 std::optional<std::vector<MethodRun>> run_condition(const PreparedCondition& condition,
@@ -136,19 +161,13 @@ std::optional<std::vector<MethodRun>> run_condition(const PreparedCondition& con
   std::optional<Recorded> made = recorded(condition, seed, control);
   if (!made) return std::nullopt;
   spoil(condition.condition, seed, made->recording);
-  const Recording& recording = made->recording;
-  Given shared(condition, recording, with_map(condition.known, made->map_error), diagnostics);
-  std::vector<MethodRun> runs;
-  for (const PreparedMethod& method : condition.methods) {
-    if (stopped(control)) return std::nullopt;
-    std::optional<Given> own;
-    if (method.known) {
-      own.emplace(condition, recording, with_map(*method.known, made->map_error), diagnostics);
-    }
-    runs.push_back(run_method(method, condition, recording, own ? *own : shared, diagnostics));
-    runs.back().seed = seed;
+  try {
+    std::vector<MethodRun> runs = run_methods(condition, *made, control, diagnostics);
+    for (MethodRun& run : runs) run.seed = seed;
+    return runs;
+  } catch (const LocatingStopped&) {
+    return std::nullopt;
   }
-  return runs;
 }
 
 }  // namespace tagfield

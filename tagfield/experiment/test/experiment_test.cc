@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/files/reads_csv.h"
 
@@ -147,6 +149,29 @@ TEST(RunSeeds, StopsEarlyAndSaysSo) {
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_FALSE(runs[0].complete);
   EXPECT_FALSE(summarize(small_experiment(), runs, 1.0, diagnostics).complete);
+}
+
+/// Between one tag and the next.
+TEST(RunSeeds, StopsWhileLocating) {
+  Diagnostics diagnostics;
+  std::atomic<bool> stop{false};
+  RunControl control;
+  control.stop = &stop;
+  std::size_t told = 0;
+  control.on_stage = [&](const std::string&, double) { ++told; };
+  const SeedRun whole = run_seeds(small_experiment(), 1, 1, {}, diagnostics).at(0);
+  SeedRun run = simulate(small_experiment(), 1, {});
+  localize(small_experiment(), run, control, diagnostics);
+  EXPECT_TRUE(run.complete);
+  EXPECT_EQ(told, 2U);  // Of the tags that were read.
+  control.on_stage = [&](const std::string&, double) { stop = true; };
+  run = simulate(small_experiment(), 1, {});
+  localize(small_experiment(), run, control, diagnostics);
+  EXPECT_FALSE(run.complete);
+  EXPECT_EQ(run.method, "none");
+  EXPECT_EQ(run.recording.reads.size(), whole.recording.reads.size());
+  ASSERT_EQ(run.outcomes.size(), 3U);
+  for (const TagOutcome& outcome : run.outcomes) EXPECT_EQ(outcome.estimate.reason, "interrupted");
 }
 
 TEST(KnownHeights, AreTheRestingTags) {

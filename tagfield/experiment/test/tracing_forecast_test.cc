@@ -62,6 +62,16 @@ TEST(TracingForecast, GrowsWithTheOrderAndIsMeasuredWhereThatIsQuick) {
   EXPECT_GT(second->seconds, first->seconds);
 }
 
+/// They keep their images, which are most of the work.
+TEST(TracingForecast, FewTagsAtRestTakeLittle) {
+  Scenario scenario = hall_with(300, 2);
+  scenario.duration_s = 100'000.0;
+  const auto at_rest = tracing_forecast(scenario, 2);
+  scenario.tags[0].motion.push_back({Time{} + Duration{1}, from_translation({2.0, 2.5, 1.0})});
+  const auto moving = tracing_forecast(scenario, 2);
+  EXPECT_GT(moving->seconds, 2.0 * at_rest->seconds);
+}
+
 TEST(TracingForecast, LongRunsAreToldOfWithAnOrderThatFits) {
   Diagnostics diagnostics;
   warn_of_long_tracing(hall_with(4, 1), diagnostics);

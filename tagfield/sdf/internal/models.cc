@@ -196,6 +196,9 @@ class ModelReader {
   template <typename Around>
   void include(Around& around, const XMLElement& element) {
     std::unique_ptr<Model> model = included(element);
+    if constexpr (std::is_same_v<Around, Model>) {
+      if (!model) around.lacks_include = true;
+    }
     if (!model) return;
     if constexpr (std::is_same_v<Around, Model>) {
       if (is_true(attribute_of(element, "merge"))) return merge(around, std::move(model));

@@ -27,8 +27,9 @@ struct Link {
 struct Model {
   std::string name;
   const tinyxml2::XMLElement* element = nullptr;
-  bool included = false;  ///< By an <include>.
-  Frame frame;            ///< In the enclosing scope.
+  bool included = false;       ///< By an <include>.
+  bool lacks_include = false;  ///< A model that it includes was left out, with a warning.
+  Frame frame;                 ///< In the enclosing scope.
   Scope scope;
   std::vector<Link> links;
   std::vector<std::unique_ptr<Model>> models;

@@ -287,15 +287,16 @@ TEST_F(LoadWorld, WhatIsMissingCanBeSkipped) {
   write("broken.obj", "hello\n");
   const std::string path =
       write("world.sdf",
-            world("<include><uri>model://nosuch</uri></include>\n" +
+            world("<model name='around'><include><uri>model://nosuch</uri></include></model>\n" +
                   model_with("<mesh>\n<uri>broken.obj</uri></mesh>") +
                   "<model name='n'><link name='l'><collision name='c'><geometry><sphere><radius>1"
                   "</radius></sphere></geometry></collision></link></model>"));
   WorldOptions options;
   options.skip_missing = true;
   const Scene scene = load_world(path, {}, diagnostics_, options);
-  EXPECT_EQ(scene.models, (std::vector<std::string>{"m", "n"}));
+  EXPECT_EQ(scene.models, (std::vector<std::string>{"around", "m", "n"}));
   EXPECT_EQ(scene.collisions.size(), 1U);
+  // One for each, none that the model around it has no links.
   ASSERT_EQ(warnings().size(), 2U);
   EXPECT_EQ(warnings()[0], path + ":3: can't find 'model://nosuch': left out");
   EXPECT_NE(warnings()[1].find("broken.obj"), std::string::npos);
