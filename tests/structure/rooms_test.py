@@ -71,7 +71,7 @@ CLOCK_ROOMS = {"simulator", "layout", "experiment", "live"}
 
 NAMESPACE = re.compile(r"^namespace ([\w:]+) \{$", re.MULTILINE)
 TYPE = re.compile(
-    r"^(?:struct|class|union|enum class|enum) (\w+)(?!::)[^;\n:]*(?:: [^\n]*)?\{|^using (\w+) =",
+    r"^(?:struct|class|union|enum class|enum) (?:alignas\(\w+\) )?(\w+)(?!::)[^;\n:]*(?:: [^\n]*)?\{|^using (\w+) =",
     re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]', re.MULTILINE)
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
