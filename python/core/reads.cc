@@ -14,6 +14,7 @@
 #include "tagfield/calibration/calibration.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/experiment/known_beforehand.h"
+#include "tagfield/experiment/stoppable.h"
 #include "tagfield/experiment/tracking_run.h"
 #include "tagfield/files/read_overview.h"
 #include "tagfield/scenario/calibration_profile.h"
@@ -216,7 +217,8 @@ py::dict localize(const ReadsArgument& reads, const PosesArgument& poses,
   if (own || !told.empty()) options.settings = told;
   refuse_unused(told, {find_method(options.methods, method)}, options.methods);
   options.known = known_of(Asked(keywords, "localize"), loaded, tables.reads);
-  Localized localized = interruptible(threads, py::none(), [&](const RunControl& /*control*/) {
+  Localized localized = interruptible(threads, py::none(), [&](const RunControl& control) {
+    make_stoppable(control.stop, options.on_locating, options.known.trace);
     return located(tables, options, loaded != nullptr);
   });
   py::dict all = estimates_of(localized.outcomes);

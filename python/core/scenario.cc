@@ -9,6 +9,7 @@
 #include "python/core/tables.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/experiment/judge.h"
+#include "tagfield/experiment/stoppable.h"
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield::python {
@@ -28,10 +29,13 @@ struct RunResult {
   std::vector<std::string> warnings;
 };
 
-void locate(const LoadedScenario& loaded, const RunOptions& how, int threads, RunResult& result) {
+/// Throws LocatingStopped.
+void locate(const LoadedScenario& loaded, const RunOptions& how, const RunControl& control,
+            RunResult& result) {
   const Scenario& scenario = loaded.parts.scenario;
   Diagnostics diagnostics;
-  LocalizationOptions options = localization_options(scenario, threads);
+  LocalizationOptions options = localization_options(scenario, control.threads);
+  make_stoppable(control.stop, options.on_locating, options.known.trace);
   options.known.map_error = map_error_of(scenario, result.run);
   if (how.method) {
     options.method = how.method->name;
@@ -57,7 +61,7 @@ RunResult run_seed(const LoadedScenario& loaded, std::uint64_t seed, const RunOp
   attach(std::make_shared<TableRecorder>(result.tables), of_run.outlets);
   of_run.keeps_recording = how.locates;
   result.run = simulate(loaded.parts.scenario, seed, of_run, loaded.ways());
-  if (how.locates && result.run.complete) locate(loaded, how, control.threads, result);
+  if (how.locates && result.run.complete) locate(loaded, how, control, result);
   Summary summary;
   summary.scenario = loaded.parts.scenario.name;
   summary.method = result.run.method;

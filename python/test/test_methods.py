@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Localization of reads from any source by any method; methods in Python and their comparison."""
 
+import os
+import signal
+import time
+
 import numpy as np
 import pytest
 
@@ -50,6 +54,30 @@ def test_reads_by_themselves_are_located(run):
                                np.sort(found.estimates["position_m"], axis=0), atol=1e-7)
     assert np.isnan(frames.estimates["error_m"]).all()
     assert str(found).startswith("tag")
+
+
+def test_ctrl_c_ends_localization_between_tags(run):
+    asked = []
+
+    @tagfield.method("slow", "is interrupted at the second of ten tags")
+    def slow(problem, tag, samples):
+        asked.append(tag)
+        if len(asked) == 2:
+            os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(0.3)
+        return samples["position_m"][0, :2]
+
+    # A shell starts background processes with SIGINT ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        for locate in (lambda: tagfield.localize(run.reads, run.poses, slow, threads=1),
+                       lambda: run.localize(slow, threads=1)):
+            asked.clear()
+            with pytest.raises(KeyboardInterrupt):
+                locate()
+            assert 2 <= len(asked) < 8
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_what_is_known_is_checked(run):

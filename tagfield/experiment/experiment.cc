@@ -7,15 +7,14 @@
 #include <map>
 #include <mutex>
 #include <set>
-#include <utility>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
 #include "tagfield/experiment/internal/navigation_summary.h"
-#include "tagfield/experiment/internal/stoppable.h"
 #include "tagfield/experiment/inventory.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/experiment/known_beforehand.h"
+#include "tagfield/experiment/stoppable.h"
 #include "tagfield/experiment/store/run_store.h"
 #include "tagfield/experiment/store/seed_run_json.h"
 #include "tagfield/motion/planar_pose.h"
@@ -176,13 +175,13 @@ std::string methods_of(const std::vector<SeedRun>& runs) {
 }
 
 /// Fills in all results of localization. Throws LocatingStopped.
-void locate_tags(const Scenario& scenario, const RunControl& control, SeedRun& run,
-                 Diagnostics& diagnostics) {
+void locate_run(const Scenario& scenario, const RunControl& control, SeedRun& run,
+                Diagnostics& diagnostics) {
   LocalizationOptions options = localization_options(scenario, control.threads);
   // The few reads of an interrupted simulation are located.
   const std::atomic<bool>* const stop = stopped(control) ? nullptr : control.stop;
-  options.on_locating = stoppable(control.on_stage, stop);
-  options.known.trace = stoppable(std::move(options.known.trace), stop);
+  options.on_locating = control.on_stage;
+  make_stoppable(stop, options.on_locating, options.known.trace);
   options.known.map_error = map_error_of(scenario, run);
   const Recording& recording = run.recording;
   LocalizationResult result =
@@ -278,7 +277,7 @@ void localize(const Scenario& scenario, SeedRun& run, const RunControl& control,
     return;
   }
   try {
-    locate_tags(scenario, control, run, diagnostics);
+    locate_run(scenario, control, run, diagnostics);
   } catch (const LocatingStopped&) {
     run.complete = false;
     leave_unlocated(scenario, "localization was interrupted", "interrupted", run);

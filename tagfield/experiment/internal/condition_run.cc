@@ -5,14 +5,13 @@
 #include <atomic>
 #include <chrono>
 #include <iterator>
-#include <utility>
 
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/internal/faults.h"
 #include "tagfield/experiment/internal/read_loss.h"
 #include "tagfield/experiment/internal/record.h"
-#include "tagfield/experiment/internal/stoppable.h"
 #include "tagfield/experiment/judge.h"
+#include "tagfield/experiment/stoppable.h"
 #include "tagfield/localization/bound.h"
 #include "tagfield/localization/locate.h"
 
@@ -29,8 +28,7 @@ class Given {
         recording_(recording),
         known_(known),
         problem_(make_problem(recording.reads, recording.believed_poses, known, diagnostics)) {
-    problem_.on_locating = stoppable(std::move(problem_.on_locating), stop);
-    problem_.trace = stoppable(std::move(problem_.trace), stop);
+    make_stoppable(stop, problem_.on_locating, problem_.trace);
   }
 
   [[nodiscard]] const LocalizationProblem& problem() const { return problem_; }
