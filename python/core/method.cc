@@ -136,6 +136,9 @@ void bind_methods(py::module_& module) {
       .def_property_readonly(
           "has_phases", [](const ProblemView& view) { return view.get().has_phases; },
           "False where the reads have none.")
+      .def(
+          "_report", [](const ProblemView& view, double share) { tell(view.get(), "tags", share); },
+          py::arg("share"), "Reports the share of tags that are done, which may end the method.")
       .def_property_readonly(
           "threads", [](const ProblemView& view) { return view.threads; },
           "On how many threads the method may work.");

@@ -58,7 +58,10 @@ def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[C
     def decorate(function: Callable) -> _core.Method:
         def locate(problem):
             if per_tag:
-                answers = {tag: function(problem, tag, problem.samples(tag)) for tag in problem.tags}
+                answers = {}
+                for tag in problem.tags:
+                    answers[tag] = function(problem, tag, problem.samples(tag))
+                    problem._report(len(answers) / len(problem.tags))
             else:
                 answers = function(problem)
             return _answers(name, problem, answers)
