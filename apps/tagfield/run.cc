@@ -22,6 +22,7 @@
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/experiment/leave_one_out.h"
+#include "tagfield/experiment/stoppable.h"
 #include "tagfield/experiment/store/run_store.h"
 #include "tagfield/experiment/store/work_hash.h"
 #include "tagfield/experiment/tracing_forecast.h"
@@ -178,8 +179,8 @@ void add_leave_one_out(const RunArguments& arguments, const Scenario& scenario,
 /// as they have no single position. For the first seed. Returns a one-line summary; "" if nothing
 /// is tracked.
 std::string stage_moving_tags(const Scenario& scenario, const SeedRun& run,
-                              const RunArguments& arguments, const Summary& summary,
-                              StagedFolder& folder, Diagnostics& diagnostics) {
+                              const RunArguments& arguments, Summary& summary, StagedFolder& folder,
+                              Diagnostics& diagnostics) {
   const TrackingSpec& spec = scenario.tracking;
   const bool moved = std::any_of(run.outcomes.begin(), run.outcomes.end(),
                                  [](const TagOutcome& outcome) { return outcome.moved; });
@@ -189,7 +190,15 @@ std::string stage_moving_tags(const Scenario& scenario, const SeedRun& run,
   tracked.reads = run.recording.reads;
   tracked.believed_poses = run.recording.believed_poses;
   tracked.truth = run.recording.truth;
-  track(spec, known_beforehand(scenario), arguments.threads, tracked, diagnostics);
+  RunControl control;
+  control.threads = arguments.threads;
+  control.stop = &interrupted();
+  try {
+    track(spec, known_beforehand(scenario), control, tracked, diagnostics);
+  } catch (const LocatingStopped&) {
+    summary.complete = false;
+    return "";
+  }
   TrackSummary judged;
   judged.name = scenario.name;
   judged.method = to_string(spec.options.method);

@@ -94,7 +94,9 @@ TrackResult tracked_whole(const TrackArguments& arguments, Task task,
   if (runs[0].reads.empty()) {
     diagnostics.warn({arguments.input, 0}, "no reads: cannot track anything");
   }
-  track(spec, known, arguments.threads, runs[0], diagnostics);
+  RunControl control;
+  control.threads = arguments.threads;
+  track(spec, known, control, runs[0], diagnostics);
   TrackResult result;
   result.summary.name = arguments.input;
   result.summary.method = to_string(spec.options.method);

@@ -322,8 +322,8 @@ py::dict track(const ReadsArgument& reads, const PosesArgument& poses, const Loa
   run.reads = std::move(tables.reads);
   run.believed_poses = std::move(tables.poses);
   Diagnostics diagnostics;
-  interruptible(threads, py::none(), [&](const RunControl& /*control*/) {
-    tagfield::track(spec, known, threads, run, diagnostics);
+  interruptible(threads, py::none(), [&](const RunControl& control) {
+    tagfield::track(spec, known, control, run, diagnostics);
     return true;
   });
   return to_python(run, diagnostics.warnings());

@@ -47,12 +47,6 @@ double updates_of(const Scenario& scenario, const AntennaSpec& antenna) {
   return seconds * antenna.parameters.rate_hz;
 }
 
-/// Few tags at rest keep their images from one update to the next.
-bool keep_images(const Scenario& scenario) {
-  return scenario.tags.size() <= kMaxTagsWithImages &&
-         std::none_of(scenario.tags.begin(), scenario.tags.end(), moves);
-}
-
 struct Trial {
   double once = 0.0;    ///< For the images of tags that keep them [s].
   double update = 0.0;  ///< For each update [s].
@@ -64,7 +58,7 @@ Trial try_order(const Scenario& scenario, const Eigen::Vector3d& p_W, int order)
   TraceOptions options;
   options.order = order;
   const RadioScene& scene = scenario.radio_world->scene;
-  const bool of_tags = keep_images(scenario);
+  const bool of_tags = tags_keep_images(scenario);
   const std::size_t tried = std::min(of_tags ? kTagImagesTried : kTagsTried, scenario.tags.size());
   const double all = static_cast<double>(scenario.tags.size()) / static_cast<double>(tried);
   double for_images = 0.0;
@@ -110,6 +104,11 @@ std::string in_words(double seconds) {
 }
 
 }  // namespace
+
+bool tags_keep_images(const Scenario& scenario) {
+  return scenario.tags.size() <= kMaxTagsWithImages &&
+         std::none_of(scenario.tags.begin(), scenario.tags.end(), moves);
+}
 
 std::optional<TracingForecast> tracing_forecast(const Scenario& scenario, int order) {
   if (scenario.radio_world == nullptr || scenario.tags.empty()) return std::nullopt;

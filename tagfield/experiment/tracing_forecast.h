@@ -17,6 +17,10 @@ struct TracingForecast {
   bool is_measured = false;  ///< At one position; else an upper limit from the order below.
 };
 
+/// Whether the images of tags are computed once, as those of few tags at rest are, instead of the
+/// antennas' at each update.
+bool tags_keep_images(const Scenario& scenario);
+
 /// Time the run will spend on antennas' images and paths in its world, for `order`; none if no
 /// moving antenna has reflections. Each order up to it is tried at one position of one antenna,
 /// unless the time for the order below implies that it could take over ten seconds.

@@ -10,6 +10,7 @@
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/experiment/known_beforehand.h"
+#include "tagfield/experiment/stoppable.h"
 #include "tagfield/simulator/simulation.h"
 #include "tagfield/stream/recording.h"
 #include "tagfield/tracking/tracker.h"
@@ -70,13 +71,14 @@ void add_passings(std::vector<PassingOrder> of_part, std::vector<PassingOrder>& 
 
 }  // namespace
 
-void track(const TrackingSpec& spec, const KnownBeforehand& known, int threads, TrackingRun& run,
-           Diagnostics& diagnostics) {
-  const LocalizationProblem problem =
-      make_problem(run.reads, run.believed_poses, known, diagnostics);
+void track(const TrackingSpec& spec, const KnownBeforehand& known, const RunControl& control,
+           TrackingRun& run, Diagnostics& diagnostics) {
+  LocalizationProblem problem = make_problem(run.reads, run.believed_poses, known, diagnostics);
+  problem.on_locating = control.on_stage;
+  make_stoppable(control.stop, problem.on_locating, problem.trace);
   TrackingOptions options = spec.options;
   options.seed = run.seed;
-  run.tracks = track_tags(problem, options, threads, diagnostics);
+  run.tracks = track_tags(problem, options, control.threads, diagnostics);
   run.orders = passing_orders(problem, run.tracks, spec.line);
   run.outcomes = judge_tracks(run.seed, run.tracks, run.truth);
   run.order_outcomes =
@@ -117,6 +119,21 @@ void track_in_parts(const TrackingSpec& spec, const KnownBeforehand& known, int 
       judge_orders(run.orders, passing_orders(problem, true_tracks(run.truth), spec.line));
 }
 
+namespace {
+
+/// Without tracks if it is stopped; reads of a simulation that was stopped before are tracked.
+void track_or_stop(const TrackingSpec& spec, const KnownBeforehand& known, RunControl control,
+                   TrackingRun& run, Diagnostics& diagnostics) {
+  if (stopped(control)) control.stop = nullptr;
+  try {
+    track(spec, known, control, run, diagnostics);
+  } catch (const LocatingStopped&) {
+    run.tracks.clear();
+  }
+}
+
+}  // namespace
+
 std::vector<TrackingRun> track_seeds(const Scenario& scenario, std::uint64_t first,
                                      std::size_t count, const RunControl& control,
                                      Diagnostics& diagnostics) {
@@ -131,10 +148,12 @@ std::vector<TrackingRun> track_seeds(const Scenario& scenario, std::uint64_t fir
   std::vector<char> done(count, 0);
   std::mutex mutex;
   double finished = 0.0;
+  RunControl of_one = control;
+  if (count > 1) of_one.threads = 1;
   parallel_for(count, control.threads, [&](std::size_t i) {
     if (i > 0 && stopped(control)) return;
     runs[i] = simulated(scenario, first + i, control);
-    track(scenario.tracking, known, count > 1 ? 1 : control.threads, runs[i], warnings[i]);
+    track_or_stop(scenario.tracking, known, of_one, runs[i], warnings[i]);
     done[i] = i == 0 || !stopped(control) ? 1 : 0;
     if (i > 0) {
       runs[i].reads.clear();

@@ -28,9 +28,11 @@ struct TrackingRun {
   std::vector<OrderOutcome> order_outcomes;
 };
 
-/// Computes tracks from the reads and judges them by `truth`, which may be empty.
-void track(const TrackingSpec& spec, const KnownBeforehand& known, int threads, TrackingRun& run,
-           Diagnostics& diagnostics);
+/// Computes tracks from the reads and judges them by `truth`, which may be empty. Of `control`,
+/// `threads`, `on_stage` and `stop` are used; throws LocatingStopped (stoppable.h) once that is
+/// set.
+void track(const TrackingSpec& spec, const KnownBeforehand& known, const RunControl& control,
+           TrackingRun& run, Diagnostics& diagnostics);
 
 /// Maximum number of tracks kept of tags tracked in parts, and of errors kept per track.
 inline constexpr std::size_t kTracksKept = 1000;

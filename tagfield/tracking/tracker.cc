@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <complex>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/fit/random_phases.h"
+#include "tagfield/localization/method.h"
 #include "tagfield/tracking/internal/pass.h"
 #include "tagfield/tracking/internal/track_search.h"
 
@@ -139,8 +141,11 @@ std::vector<TagTrack> track_tags(const LocalizationProblem& problem, const Track
     if (problem.reference_tags.count(tag) == 0) tags.push_back(tag);
   }
   std::vector<TagTrack> tracks(tags.size());
-  parallel_for(tags.size(), threads,
-               [&](std::size_t i) { tracks[i] = track_tag(problem, options, tags[i]); });
+  std::atomic<std::size_t> done{0};
+  parallel_for(tags.size(), threads, [&](std::size_t i) {
+    tracks[i] = track_tag(problem, options, tags[i]);
+    tell(problem, "tags", static_cast<double>(++done) / static_cast<double>(tags.size()));
+  });
   return tracks;
 }
 
