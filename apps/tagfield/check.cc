@@ -236,9 +236,10 @@ void print_text(const std::string& file, const Json& json) {
   }
   fmt::print("antennas: {}\n", json["antennas"].size());
   for (const Json& antenna : json["antennas"]) {
-    fmt::print("  {:<20} {}, {:.1f} MHz, range {} m, {} Hz\n", antenna["name"].get<std::string>(),
-               place_of(antenna), antenna["frequency_hz"].get<double>() / 1e6,
-               antenna["range_m"].get<double>(), antenna["rate_hz"].get<double>());
+    fmt::print("  {:<20} {}, {:.1f} MHz, range {:.4g} m, {:.4g} Hz\n",
+               antenna["name"].get<std::string>(), place_of(antenna),
+               antenna["frequency_hz"].get<double>() / 1e6, antenna["range_m"].get<double>(),
+               antenna["rate_hz"].get<double>());
   }
   fmt::print("tags: {}\n", json["tags"].size());
   for (const Json& tag : json["tags"]) {
