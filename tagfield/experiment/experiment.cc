@@ -280,7 +280,10 @@ void localize(const Scenario& scenario, SeedRun& run, const RunControl& control,
     locate_run(scenario, control, run, diagnostics);
   } catch (const LocatingStopped&) {
     run.complete = false;
-    leave_unlocated(scenario, "localization was interrupted", "interrupted", run);
+    // Otherwise only comparisons are missing.
+    if (run.outcomes.empty()) {
+      leave_unlocated(scenario, "localization was interrupted", "interrupted", run);
+    }
   }
 }
 

@@ -56,8 +56,9 @@ std::optional<MapError> map_error_of(const Scenario& scenario, const SeedRun& ru
 
 /// Locates the tags from the run's reads and believed poses, unless localization is impossible or
 /// not requested (why_inventory_alone()), and fills in all results. Of `control`, `threads`,
-/// `on_stage` and `stop` are used: once that is set, the run is not complete and its tags are not
-/// located, except that reads of a simulation that was stopped before are located to the end.
+/// `on_stage` and `stop` are used: once that is set, the run is not complete, and either its tags
+/// are not located or comparisons are missing; only reads of a simulation that was stopped before
+/// are located to the end.
 void localize(const Scenario& scenario, SeedRun& run, const RunControl& control,
               Diagnostics& diagnostics);
 

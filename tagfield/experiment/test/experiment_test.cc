@@ -174,6 +174,24 @@ TEST(RunSeeds, StopsWhileLocating) {
   for (const TagOutcome& outcome : run.outcomes) EXPECT_EQ(outcome.estimate.reason, "interrupted");
 }
 
+TEST(RunSeeds, KeepsItsEstimatesWhenStoppedWhileOthersAreCompared) {
+  Diagnostics diagnostics;
+  std::atomic<bool> stop{false};
+  std::size_t told = 0;
+  RunControl control;
+  control.stop = &stop;
+  control.on_stage = [&](const std::string&, double) { stop = ++told > 2; };
+  Scenario scenario = small_experiment();
+  scenario.localization.compare = {"ml"};
+  SeedRun run = simulate(scenario, 1, {});
+  localize(scenario, run, control, diagnostics);
+  EXPECT_FALSE(run.complete);
+  EXPECT_EQ(run.method, "hyperbola");
+  ASSERT_EQ(run.outcomes.size(), 3U);
+  EXPECT_LT(*error_of(run.outcomes[0]), 0.05);
+  EXPECT_TRUE(run.compared.empty());
+}
+
 TEST(KnownHeights, AreTheRestingTags) {
   Scenario scenario = small_experiment();
   EXPECT_EQ(known_beforehand(scenario).heights.of_tag.size(), 2U);
