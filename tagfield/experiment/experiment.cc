@@ -126,7 +126,6 @@ void leave_unlocated(const Scenario& scenario, const std::string& why, const std
                      SeedRun& run) {
   run.method = kNoLocalization;
   run.method_why = why;
-  run.estimates.clear();
   for (const std::string& tag : tags_of(scenario)) {
     run.estimates.push_back({tag, Verdict::kNotLocated, reason, {}, 0});
   }

@@ -225,9 +225,9 @@ std::string compared_pose_text(const Summary& summary) {
 
 std::string run_facts(const Summary& summary) {
   std::string html = "<dl class=\"facts\">\n";
-  const bool is_none = summary.method == "none";  // Not asked for, or interrupted.
-  const bool is_asked = is_none && !is_inventory_alone(summary);
-  html += fact("Method", is_asked ? "none" : spoken_method(summary.method));
+  const bool is_none = summary.method == "none";
+  const bool is_interrupted = is_none && !is_inventory_alone(summary);
+  html += fact("Method", is_interrupted ? "none" : spoken_method(summary.method));
   html += fact(is_none ? "Why" : "Chosen by " + summary.method_asked, summary.method_why);
   html += fact("Antenna poses", spoken_pose(summary.pose));
   if (summary.pose_error && summary.pose != "slam") {  // For "slam" no error is stated.

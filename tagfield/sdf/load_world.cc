@@ -36,7 +36,8 @@ struct Place {
   std::string name;  ///< Scoped.
   RigidTransform X_WM;
   const ModelState& state;
-  /// X_LC of the first collision of each name, LINK::COLLISION, so far.
+  /// X_LC of the first collision of each name so far: of its link, including what that was merged
+  /// with, and its own.
   std::map<std::string, RigidTransform> collisions = {};
 };
 
@@ -81,7 +82,8 @@ class SceneGatherer {
     const std::string scope = place.name + "::" + link.name + "::";
     const std::vector<std::string> looks = looks_of(link, scope);
     for_each_child(*link.element, "collision", [&](const XMLElement& element) {
-      const auto [X_LC, is_new] = place.collisions.try_emplace(link.name + "::" + name_of(element));
+      const auto [X_LC, is_new] = place.collisions.try_emplace(link.model_frame + "::" + link.name +
+                                                               "::" + name_of(element));
       if (is_new) {
         X_LC->second = pose_in_link(element, link, place, X_ML);
       } else {

@@ -28,7 +28,7 @@ struct Model {
   std::string name;
   const tinyxml2::XMLElement* element = nullptr;
   bool included = false;       ///< By an <include>.
-  bool lacks_include = false;  ///< A model that it includes was left out, with a warning.
+  bool lacks_include = false;  ///< What it includes is missing, or is a light.
   Frame frame;                 ///< In the enclosing scope.
   Scope scope;
   std::vector<Link> links;

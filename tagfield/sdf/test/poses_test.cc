@@ -175,6 +175,21 @@ TEST_F(LoadWorldPoses, LinksAndCollisionsOfTheSameNameStandWhereTheFirstDoes) {
       << warnings()[1];
 }
 
+/// Gazebo 11 doesn't merge.
+TEST_F(LoadWorldPoses, MergedLinksOfTheSameNameKeepTheirCollisions) {
+  for (const std::string name : {"one", "two"}) {
+    const std::string y = name == "one" ? "1" : "2";
+    write_model(name,
+                "<link name='l'>" + ball("c", "<pose>0 " + y + " 0 0 0 0</pose>") + "</link>");
+  }
+  const std::string include = "<include merge='true'><uri>model://";
+  const Scene scene = load("<model name='m'>" + include + "one</uri></include>" + include +
+                           "two</uri><pose>5 0 0 0 0 0</pose></include></model>");
+  ASSERT_EQ(scene.collisions.size(), 2U);
+  expect_pose(scene.collisions[0], {0.0, 1.0, 0.0}, 0.0);
+  expect_pose(scene.collisions[1], {5.0, 2.0, 0.0}, 0.0);
+}
+
 TEST_F(LoadWorldPoses, IncludesOfTheSameNameStandWhereTheFirstDoesAndNestedModelsDoNot) {
   write_model("post", "<pose>0 0 9 0 0 0</pose><link name='l'>" + ball("c", "") + "</link>");
   const std::string include = "<include><uri>model://post</uri>";
