@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // RayScene::surfaces(): one pass of Embree's occlusion query, whose filter records each hit and
-// rejects it, so that the ray continues.
+// rejects it, so that the ray continues. Embree's segment is extended at each end by the error of
+// single precision; hits outside the true ends are rejected in double precision.
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/single_precision.h"
 #include "tagfield/world/internal/ray_scene_impl.h"
 
 namespace tagfield {
 namespace {
-
-/// Bound on the error of single precision, relative to the greatest coordinate, with a safety
-/// margin. Embree's segment is extended by it at each end; hits outside the true ends are rejected
-/// in double precision.
-constexpr double kSingle = 1e-6;
 
 /// clearly_stops() requires a hit to be inside the triangle by a margin larger by this factor than
 /// the tolerance of surfaces(), and not to be at a grazing angle, where Embree may miss it.
@@ -65,7 +62,7 @@ bool take_triangle(const Query& query, const Triangles& triangles, unsigned tria
   const Eigen::Vector3d b = triangles.vertices[j] - segment.origin;
   const Eigen::Vector3d c = triangles.vertices[k] - segment.origin;
   const double turn = slope < 0.0 ? -1.0 : 1.0;
-  const double tolerance = kSingle * (1.0 + greatest(segment.origin) + greatest(a));
+  const double tolerance = kSinglePrecision * (1.0 + greatest(segment.origin) + greatest(a));
   if (!passes(a, b, d, turn, tolerance) || !passes(b, c, d, turn, tolerance) ||
       !passes(c, a, d, turn, tolerance)) {
     return false;
@@ -127,7 +124,7 @@ double RayScene::reach_from(const Eigen::Vector3d& p) const {
   const Eigen::Vector3d low(bounds.lower_x, bounds.lower_y, bounds.lower_z);
   const Eigen::Vector3d high(bounds.upper_x, bounds.upper_y, bounds.upper_z);
   const double reach = (p - low).cwiseAbs().cwiseMax((p - high).cwiseAbs()).norm();
-  return reach + kSingle * (1.0 + greatest(p) + reach);
+  return reach + kSinglePrecision * (1.0 + greatest(p) + reach);
 }
 
 bool RayScene::clearly_stops(std::uint32_t collision, std::uint32_t triangle,
@@ -147,7 +144,7 @@ bool RayScene::clearly_stops(std::uint32_t collision, std::uint32_t triangle,
   const Eigen::Vector3d b = triangles.vertices[j] - segment.origin;
   const Eigen::Vector3d c = triangles.vertices[k] - segment.origin;
   const double turn = slope < 0.0 ? -1.0 : 1.0;
-  const double clear = kClear * kSingle * (1.0 + greatest(segment.origin) + greatest(a));
+  const double clear = kClear * kSinglePrecision * (1.0 + greatest(segment.origin) + greatest(a));
   const auto is_inside = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
     // The edge's length is at least its component across the line.
     return turn * segment.direction.dot(p.cross(q)) > clear * (q - p).lpNorm<1>();
@@ -162,7 +159,7 @@ bool RayScene::surfaces(const RaySegment& segment, const std::vector<char>& stop
   if (take_planes(impl_->planes, segment, stops, hits)) return false;
   if (impl_->triangles.indices.empty()) return true;
   const double reach = std::min(std::max(std::abs(segment.from_m), segment.to_m), 1e9);
-  const double margin = kSingle * (1.0 + greatest(segment.origin) + reach);
+  const double margin = kSinglePrecision * (1.0 + greatest(segment.origin) + reach);
   Query query{{}, &segment, &stops, &hits};
   embree::init(query.context);
   RTCRay ray = single_precision(segment, margin);

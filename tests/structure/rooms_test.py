@@ -69,6 +69,13 @@ ALLOWED = {("navigation", "std::mt19937")}
 # For real-time pacing, to report the duration of a method, or for the time limit of an exact search.
 CLOCK_ROOMS = {"simulator", "layout", "experiment", "live"}
 
+# Compiled as one translation unit each for Gazebo 11 (tagfield_compile_together).
+TOGETHER = {"base", "poses", "stream", "epc", "files", "motion", "world", "propagation", "channel", "gen2",
+            "reader", "settings", "field"}
+LOCAL = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.MULTILINE | re.DOTALL)
+LOCAL_NAME = re.compile(r"^(?:constexpr|const) [^=({;]*?\b(k\w+)(?=\[| =|\{|\()|"
+                        r"^(?:struct|class|enum class|enum) (\w+)[^;\n]*\{", re.MULTILINE)
+
 NAMESPACE = re.compile(r"^namespace ([\w:]+) \{$", re.MULTILINE)
 TYPE = re.compile(
     r"^(?:struct|class|union|enum class|enum) (?:alignas\(\w+\) )?(\w+)(?!::)[^;\n:]*(?:: [^\n]*)?\{|^using (\w+) =",
@@ -241,6 +248,21 @@ def repeated_types(files):
             seen[name] = place
 
 
+def repeated_local_names(files):
+    """Constants and types in anonymous namespaces of one room with the same name, which clash where its
+    sources are compiled together."""
+    seen = {}
+    for path, text in files:
+        if not path.startswith("tagfield/") or room_of(path) not in TOGETHER or is_test(path):
+            continue
+        for match in (name for local in LOCAL.finditer(text) for name in
+                      LOCAL_NAME.finditer(text, local.start(1), local.end(1))):
+            name = match.group(1) or match.group(2)
+            first = seen.setdefault((room_of(path), name), path)
+            if first != path:
+                yield f"{path}:{line_at(text, match.start())}: defines {name}, as {first} does"
+
+
 def sources(root):
     """Every .h and .cc of the project: (path from the top, text)."""
     for folder in [*FOLDERS, "tests"]:
@@ -288,6 +310,7 @@ def faults(root):
         for rule in (include_faults, word_faults, path_faults, header_faults):
             found.extend(rule(path, text))
     found.extend(repeated_types(sources(root)))
+    found.extend(repeated_local_names(sources(root)))
     return found
 
 
@@ -318,6 +341,8 @@ GOOD = {
                                         '#include "tagfield/base/error.h"\n',
     "tagfield/files/kind.cc": "bool a = fs::exists(path, error) || fs::is_directory(status);\n"
                               "bool b = fs::exists(fs::symlink_status(path / x, error));\n",
+    "tagfield/reader/antenna.cc": "namespace {\nconstexpr double kNear = 1.0;\nstruct Lobe {\n}  // namespace\n",
+    "tagfield/channel/antenna.cc": "namespace {\nconstexpr double kNear = 2.0;\n}  // namespace\n",
     "adapters/mcap/writer.cc": '#include "adapters/mcap/records.h"\n'
                                '#include "tagfield/base/error.h"\n#include <zstd.h>\n',
     "adapters/gazebo_classic/plugins/a.cc": '#include "adapters/ros1/link.h"\n'
@@ -385,6 +410,10 @@ PLANTED = (  # a file, its content, part of the expected message
     ("tagfield/world/a.h",
      "/// @file\n/// It.\n#pragma once\nnamespace tagfield {\nusing Truth = int;\n",
      "defines tagfield::Truth, as tagfield/stream/truth.h:5 does"),
+    ("tagfield/reader/gain.cc", "namespace {\nconstexpr int kNear = 2;\n}  // namespace\n",
+     "defines kNear, as tagfield/reader/antenna.cc does"),
+    ("tagfield/reader/gain.cc", "namespace {\nclass Lobe {\n}  // namespace\n",
+     "defines Lobe, as tagfield/reader/antenna.cc does"),
     ("tagfield/kitchen/a.cc", "\n", "kitchen: is no room"),
     ("tagfield/world/CMakeLists.txt", "LINKS tagfield::base tagfield::reader\n",
      "links reader/, which is below world/"),

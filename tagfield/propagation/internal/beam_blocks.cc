@@ -3,13 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "tagfield/base/single_precision.h"
 #include "tagfield/propagation/internal/beam.h"
 
 namespace tagfield {
 namespace {
-
-/// Upper bound on the rounding error in single precision, relative to the terms of the sum.
-constexpr double kSingle = 1e-6;
 
 /// Stores the half space n·p + w ≥ 0 [world] relative to the antenna.
 void put(const Eigen::Vector4d& plane, const Eigen::Vector3d& p_WA, std::size_t k, std::size_t lane,
@@ -18,7 +16,7 @@ void put(const Eigen::Vector4d& plane, const Eigen::Vector3d& p_WA, std::size_t 
   for (int axis = 0; axis < 3; ++axis) {
     block.normals[k][static_cast<std::size_t>(axis)][lane] = static_cast<float>(plane[axis]);
   }
-  block.offsets[k][lane] = static_cast<float>(offset + kSingle * (1.0 + std::abs(offset)));
+  block.offsets[k][lane] = static_cast<float>(offset + kSinglePrecision * (1.0 + std::abs(offset)));
 }
 
 BeamBlock unseen() {
@@ -75,7 +73,7 @@ std::vector<BeamBlock> beam_blocks(const std::vector<Image>& images,
 
 void add_seen_from(const std::vector<BeamBlock>& blocks, std::size_t count,
                    const Eigen::Vector3f& p, InstructionSet set, std::vector<std::uint32_t>& seen) {
-  const float slack = static_cast<float>(kSingle) * p.lpNorm<1>();
+  const float slack = static_cast<float>(kSinglePrecision) * p.lpNorm<1>();
   const std::size_t count_of_blocks = (count + kBeamLanes - 1) / kBeamLanes;
   thread_local std::vector<float> heights;
   thread_local std::vector<std::uint32_t> with_seen;

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "tagfield/base/single_precision.h"
+
 namespace tagfield {
 namespace {
-
-/// Upper bound on the rounding error in single precision, relative to the terms of the sum.
-constexpr double kSingle = 1e-6;
 
 FacetBlock with_nothing() {
   FacetBlock block;
@@ -22,7 +21,7 @@ void put(const Facet& facet, std::size_t lane, FacetBlock& block) {
   if (!facet.unbounded) {
     centre = facet.corner_W + 0.5 * facet.size_m.x() * facet.axis_u_W +
              0.5 * facet.size_m.y() * facet.axis_v_W;
-    radius = 0.5 * facet.size_m.norm() + kSingle * (1.0 + centre.lpNorm<1>());
+    radius = 0.5 * facet.size_m.norm() + kSinglePrecision * (1.0 + centre.lpNorm<1>());
   }
   for (int axis = 0; axis < 3; ++axis) {
     block.centres[static_cast<std::size_t>(axis)][lane] = static_cast<float>(centre[axis]);
@@ -30,7 +29,7 @@ void put(const Facet& facet, std::size_t lane, FacetBlock& block) {
   }
   block.radii[lane] = static_cast<float>(radius);
   block.offsets[lane] = static_cast<float>(facet.offset_m);
-  block.slacks[lane] = static_cast<float>(kSingle * (1.0 + std::abs(facet.offset_m)));
+  block.slacks[lane] = static_cast<float>(kSinglePrecision * (1.0 + std::abs(facet.offset_m)));
 }
 
 /// The half spaces n·p + w ≥ 0 of a beam and of its mirror's front, with the image's position.
@@ -46,14 +45,14 @@ Cone cone_of(const BeamSides& beam, const Image& image) {
   Cone cone{};
   const auto set = [&](std::size_t k, const Eigen::Vector3d& normal, double offset) {
     for (int axis = 0; axis < 3; ++axis) cone.n[k][axis] = static_cast<float>(normal[axis]);
-    cone.w[k] = static_cast<float>(offset + kSingle * (1.0 + std::abs(offset)));
+    cone.w[k] = static_cast<float>(offset + kSinglePrecision * (1.0 + std::abs(offset)));
   };
   set(0, image.normal_W, -image.offset_m);
   for (int row = 0; row < 4; ++row) {
     set(static_cast<std::size_t>(row) + 1, beam.row(row).head<3>(), beam(row, 3));
   }
   for (int axis = 0; axis < 3; ++axis) cone.p[axis] = static_cast<float>(image.p_W[axis]);
-  cone.slack = static_cast<float>(kSingle * image.p_W.lpNorm<1>());
+  cone.slack = static_cast<float>(kSinglePrecision * image.p_W.lpNorm<1>());
   return cone;
 }
 
