@@ -103,7 +103,9 @@ std::vector<double> hologram_at(const std::vector<PhaseSample>& samples,
     Tile sum = Tile::Zero();
     for (const std::vector<SearchRead>& group : groups) {
       const WaveSums waves = wave_sums(group.data(), group.size(), x, y);
-      sum += (waves.in_phase.square() + waves.quadrature.square()).sqrt();
+      const Tile power = waves.in_phase.square() + waves.quadrature.square();
+      // Eigen's square root in single precision is not the same on all processors.
+      for (int k = 0; k < kTile; ++k) sum[k] += std::sqrt(power[k]);
     }
     return Tile(sum / static_cast<float>(samples.size()));
   });

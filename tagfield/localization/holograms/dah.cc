@@ -2,7 +2,6 @@
 #include "tagfield/localization/holograms/dah.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "tagfield/base/random.h"
@@ -14,8 +13,6 @@ namespace {
 
 /// Phase error added by the grid's spacing [rad]: a tag is seldom at the middle of a cell.
 constexpr double kGridNoise = 0.35;
-constexpr Eigen::Index kLongAperture = 64;  ///< Reads from which several references are used.
-constexpr Eigen::Index kReferences = 4;
 constexpr double kMinNoise = 1e-3;       ///< Of a phase [rad], if none is observed.
 constexpr int kDraws = 16;               ///< Noise realizations that give the expected error.
 constexpr std::size_t kFinished = 6;     ///< Number of brightest positions that are refined.
@@ -25,29 +22,6 @@ constexpr double kLastSpacing = 1e-4;    ///< [m]
 /// Vector from an antenna to a point on the floor.
 Eigen::Vector2d from_antenna(const SearchRead& read, const Eigen::Vector2d& p) {
   return p - Eigen::Vector2d(static_cast<double>(read.x), static_cast<double>(read.y));
-}
-
-/// erfc(x), x ≥ 0, to 5·10⁻⁴ (Abramowitz and Stegun, 7.1.27).
-Tile complementary_error(const Tile& x) {
-  const Tile root = 1.0f + x * (0.278393f + x * (0.230389f + x * (0.000972f + x * 0.078108f)));
-  return root.square().square().inverse();
-}
-
-/// Phasors of an aperture's reads relative to one of them.
-struct Against {
-  Tile reference;  ///< Its residual [turns].
-  Tile in_phase = Tile::Zero();
-  Tile quadrature = Tile::Zero();
-};
-
-void add_wave(const Tile& turns, float turns_scale, Against& against) {
-  const Tile difference = wrapped_turns(turns - against.reference);
-  const Tile weight = complementary_error(difference.abs() * turns_scale);
-  Tile cosine;
-  Tile sine;
-  wave_of(difference, cosine, sine);
-  against.in_phase += weight * cosine;
-  against.quadrature += weight * sine;
 }
 
 /// Square array of points around `p`, `spacing` apart.
@@ -181,33 +155,6 @@ const OptionTable<DahOptions>& dah_options() {
 }
 
 }  // namespace
-
-Tile differential_brightness(const SearchReads& reads, double noise_rad, const Tile& x,
-                             const Tile& y) {
-  const auto turns_scale = static_cast<float>(kTwoPi / (2.0 * noise_rad));
-  const auto residual_of = [&](Eigen::Index i) {
-    return residual_turns(reads.reads[static_cast<std::size_t>(i)], x, y);
-  };
-  Tile light = Tile::Zero();
-  for (const Aperture& aperture : reads.apertures) {
-    std::array<Against, kReferences> all;
-    const Eigen::Index references = aperture.count >= kLongAperture ? kReferences : 1;
-    const auto end = all.begin() + references;
-    for (Eigen::Index k = 0; k < references; ++k) {
-      all.at(static_cast<std::size_t>(k)).reference =
-          residual_of(aperture.begin + (2 * k + 1) * aperture.count / (2 * references));
-    }
-    for (Eigen::Index i = aperture.begin; i < aperture.begin + aperture.count; ++i) {
-      const Tile turns = residual_of(i);
-      for (auto one = all.begin(); one != end; ++one) add_wave(turns, turns_scale, *one);
-    }
-    for (auto one = all.begin(); one != end; ++one) {
-      light += (one->in_phase.square() + one->quadrature.square()).sqrt() /
-               static_cast<float>(references);
-    }
-  }
-  return light;
-}
 
 Method dah_method(const DahOptions& options) {
   return one_by_one("dah",

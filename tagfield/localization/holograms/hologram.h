@@ -28,31 +28,6 @@ struct Brightness {
   std::function<BlockLight(const SearchReads& reads, const CellBlock& block)> at_a_glance{};
 };
 
-/// Measured minus predicted phase of one read [turns], not wrapped.
-inline Tile residual_turns(const SearchRead& read, const Tile& x, const Tile& y) {
-  return read.turns -
-         read.turns_per_metre *
-             ((x - read.x).square() + (y - read.y).square() + read.height_squared).sqrt();
-}
-
-/// `turns` wrapped to [−½, ½]; |turns| < 2²².
-inline Tile wrapped_turns(const Tile& turns) {
-  // Adding a number of this size rounds fractions off, with every instruction set.
-  constexpr float kRounds = 12582912.0f;  // 1.5 · 2²³
-  const Tile shifted = turns + kRounds;
-  return turns - (shifted - kRounds);
-}
-
-/// Cosine and sine of 2πt, |t| ≤ ½, to 2·10⁻⁵: polynomials for πt, interpolated at Chebyshev nodes,
-/// then the double-angle formulas.
-inline void wave_of(const Tile& t, Tile& cosine, Tile& sine) {
-  const Tile u = t.square();
-  const Tile s = t * (3.1415903f + u * (-5.1674058f + u * (2.5440002f - u * 0.5594350f)));
-  const Tile c = 0.9999932f + u * (-4.9339313f + u * (4.0412123f - u * 1.2219364f));
-  cosine = 1.0f - 2.0f * s.square();
-  sine = 2.0f * s * c;
-}
-
 /// Σ |Σ e^{j(φ − k r)}| over the apertures, the real part where the offset is known.
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y);
 /// Approximation of the same at a block's cells; see block_sums() for its accuracy.

@@ -27,18 +27,26 @@ struct SearchReads {
   std::vector<Aperture> apertures;  ///< Of `reads`.
 };
 
-/// Cosine and sine of 2π `turns`, |turns| < 2²², to 2·10⁻⁵: reduction by whole turns, polynomials
-/// for the half angle, interpolated at Chebyshev nodes, then the double-angle formulas. For loops
-/// over lanes.
-inline void wave_of(float turns, float& cosine, float& sine) {
+/// `turns` wrapped to [−½, ½]; |turns| < 2²². For loops over lanes.
+inline float wrapped_turns(float turns) {
   // Adding a number of this size rounds fractions off.
   constexpr float kRounds = 12582912.0f;  // 1.5 · 2²³
-  const float t = turns - ((turns + kRounds) - kRounds);
+  return turns - ((turns + kRounds) - kRounds);
+}
+
+/// Cosine and sine of 2πt, |t| ≤ ½, to 2·10⁻⁵: polynomials for the half angle, interpolated at
+/// Chebyshev nodes, then the double-angle formulas. For loops over lanes.
+inline void wrapped_wave_of(float t, float& cosine, float& sine) {
   const float u = t * t;
   const float s = t * (3.1415903f + u * (-5.1674058f + u * (2.5440002f - u * 0.5594350f)));
   const float c = 0.9999932f + u * (-4.9339313f + u * (4.0412123f - u * 1.2219364f));
   cosine = 1.0f - 2.0f * (s * s);
   sine = 2.0f * s * c;
+}
+
+/// Cosine and sine of 2π `turns`, |turns| < 2²², to 2·10⁻⁵. For loops over lanes.
+inline void wave_of(float turns, float& cosine, float& sine) {
+  wrapped_wave_of(wrapped_turns(turns), cosine, sine);
 }
 
 /// Σ cos and Σ sin of the residuals φ − 2r/λ at each point of a tile.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "made_search_reads.h"
 #include "method_study.h"
 #include "tagfield/base/error.h"
 
@@ -91,6 +92,70 @@ RC_GTEST_PROP(Dah, BrightnessIsThatOfTheDefinition, ()) {
     sum += std::polar(std::erfc(std::abs(turn) / (2.0 * noise)), turn);
   }
   RC_ASSERT(std::abs(light - std::abs(sum)) < 2e-3 * static_cast<double>(samples.size()));
+}
+
+/// Brightness at (x, y), one operation after the other, as any machine computes it.
+float brightness_at(const SearchReads& reads, float turns_scale, float x, float y) {
+  const auto residual = [&](Eigen::Index i) {
+    const SearchRead& read = reads.reads[static_cast<std::size_t>(i)];
+    const float dx = x - read.x;
+    const float dy = y - read.y;
+    return read.turns - read.turns_per_metre * std::sqrt(dx * dx + dy * dy + read.height_squared);
+  };
+  float light = 0.0f;
+  for (const Aperture& aperture : reads.apertures) {
+    const Eigen::Index references = aperture.count >= 64 ? 4 : 1;
+    for (Eigen::Index k = 0; k < references; ++k) {
+      const float reference =
+          residual(aperture.begin + (2 * k + 1) * aperture.count / (2 * references));
+      float in_phase = 0.0f;
+      float quadrature = 0.0f;
+      for (Eigen::Index i = 0; i < aperture.count; ++i) {
+        const float turns = residual(aperture.begin + i) - reference;
+        const float t = turns - ((turns + 12582912.0f) - 12582912.0f);
+        const float e = std::abs(t) * turns_scale;
+        const float root =
+            1.0f + e * (0.278393f + e * (0.230389f + e * (0.000972f + e * 0.078108f)));
+        const float weight = 1.0f / ((root * root) * (root * root));
+        const float u = t * t;
+        const float s = t * (3.1415903f + u * (-5.1674058f + u * (2.5440002f - u * 0.5594350f)));
+        const float c = 0.9999932f + u * (-4.9339313f + u * (4.0412123f - u * 1.2219364f));
+        in_phase += weight * (1.0f - 2.0f * (s * s));
+        quadrature += weight * (2.0f * s * c);
+      }
+      light +=
+          std::sqrt(in_phase * in_phase + quadrature * quadrature) / static_cast<float>(references);
+    }
+  }
+  return light;
+}
+
+RC_GTEST_PROP(Dah, BrightnessIsTheSameBitsWithAnyInstructions, ()) {
+  Rng rng(*rc::gen::arbitrary<std::uint32_t>());
+  SearchReads reads = made::with_apertures(rng, made::search_reads(rng, 40));
+  const auto count = static_cast<Eigen::Index>(*rc::gen::inRange(60, 90));
+  const std::vector<SearchRead> more = made::search_reads(rng, 1);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    SearchRead read = more.front();
+    read.x += 0.01f * static_cast<float>(i);
+    read.turns = made::some(rng, 0.5);
+    reads.reads.push_back(read);
+  }
+  reads.apertures.push_back({static_cast<Eigen::Index>(reads.reads.size()) - count, count, false});
+  const double noise = uniform(rng, 0.1, 0.6);
+  Tile x = Tile::Zero();
+  Tile y = Tile::Zero();
+  for (int k = 0; k < kTile; ++k) {
+    x[k] = made::some(rng, 12.0);
+    y[k] = made::some(rng, 12.0);
+  }
+  const auto turns_scale = static_cast<float>(kTwoPi / (2.0 * noise));
+  for (const InstructionSet set : instruction_sets()) {
+    const Tile light = differential_brightness(reads, noise, x, y, set);
+    for (int k = 0; k < kTile; ++k) {
+      RC_ASSERT(light[k] == brightness_at(reads, turns_scale, x[k], y[k]));
+    }
+  }
 }
 
 TEST(Dah, BadOptionsAreErrors) {
