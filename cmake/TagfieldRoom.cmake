@@ -70,6 +70,8 @@ function(tagfield_test name)
   target_precompile_headers(${name} REUSE_FROM tagfield_test_headers)
   tagfield_warnings(${name})
   target_compile_options(${name} PRIVATE ${tagfield_test_options})
+  # Twice as many at a time as of the libraries' sources take a quarter less time.
+  set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 16)
   tagfield_gtest(${name} ${TEST_PARTS})
 endfunction()
 

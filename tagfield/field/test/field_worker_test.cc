@@ -12,12 +12,12 @@ namespace {
 constexpr int kSteps = 200;  // More than fit into the queue.
 
 /// Records reads without a lock: only the worker's thread may call it.
-struct Log final : ReadListener {
+struct StampLog final : ReadListener {
   std::vector<Time> stamps;
   void on_read(const TagRead& read) override { stamps.push_back(read.stamp); }
 };
 
-Outlets outlets_of(const std::shared_ptr<Log>& log) {
+Outlets outlets_of(const std::shared_ptr<StampLog>& log) {
   Outlets outlets;
   attach(log, outlets);
   return outlets;
@@ -42,7 +42,7 @@ std::shared_ptr<const FieldAntenna> gate() {
 }
 
 TEST(FieldWorker, TakesAllStepsInOrderWhileOthersAskHowFarItIs) {
-  const auto log = std::make_shared<Log>();
+  const auto log = std::make_shared<StampLog>();
   std::atomic<bool> is_over = false;
   std::int64_t seen = 0;
   {
@@ -68,7 +68,7 @@ TEST(FieldWorker, CountsAllReadsOnceItHasFinished) {
 }
 
 TEST(FieldWorker, ComplainsOfAStepAndTakesTheNext) {
-  const auto log = std::make_shared<Log>();
+  const auto log = std::make_shared<StampLog>();
   std::vector<std::string> complaints;
   {
     const FieldConsole console{

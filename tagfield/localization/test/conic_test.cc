@@ -23,7 +23,7 @@ Conic through(const Eigen::Vector3d& p, const Eigen::Vector3d& AP0, const Eigen:
   return {AP0, AP1 - AP0, (p - AP1).norm() - (p - AP0).norm()};
 }
 
-double nearest(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector3d& p) {
+double nearest_of(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector3d& p) {
   double best = 1e9;
   for (const Eigen::Vector2d& point : points) best = std::min(best, (point - p.head<2>()).norm());
   return best;
@@ -75,7 +75,7 @@ TEST(Conic, OfOneFocusMeetInTheTagAtAnyHeights) {
         std::abs(a.baseline.x() * b.baseline.y() - a.baseline.y() * b.baseline.x()) /
         (a.baseline.head<2>().norm() * b.baseline.head<2>().norm());
     if (sine < 0.03) return;  // taken as parallel, see the next tests
-    RC_ASSERT(nearest(points, p) < 1e-6);
+    RC_ASSERT(nearest_of(points, p) < 1e-6);
     for (const Eigen::Vector2d& point : points) {
       const Eigen::Vector3d at(point.x(), point.y(), p.z());
       RC_ASSERT(std::abs(misfit(a, at)) < 1e-6);  // on the branch of its sign
@@ -98,7 +98,7 @@ TEST(Conic, OfOneFocusAgreesWithBruteForce) {
       const Eigen::Vector2d near = point + Eigen::Vector2d(0.013, -0.021);
       EXPECT_LT((brute_force(a, b, p.z(), near, 0.05) - point).norm(), 1e-5);
     }
-    EXPECT_LT(nearest(points, p), 1e-6);
+    EXPECT_LT(nearest_of(points, p), 1e-6);
   }
 }
 
@@ -109,8 +109,8 @@ TEST(Conic, OnAStraightPathGivesBothMirrorImages) {
   intersect_common_focus(through(p, focus, {1.0, 0.0, 0.4}), through(p, focus, {2.5, 0.0, 0.4}),
                          p.z(), points);
   ASSERT_EQ(points.size(), 2u);
-  EXPECT_LT(nearest(points, p), 1e-9);
-  EXPECT_LT(nearest(points, {1.0, -2.0, 0.9}), 1e-9);
+  EXPECT_LT(nearest_of(points, p), 1e-9);
+  EXPECT_LT(nearest_of(points, {1.0, -2.0, 0.9}), 1e-9);
 }
 
 TEST(Conic, ALittleNoiseAtADoubleRootLosesNoPoint) {
@@ -158,7 +158,7 @@ TEST(TracedConic, ReachesFifteenMetresToEitherSide) {
     const Conic b = through(p, {2.0, 1.0, 0.4}, {2.4, 1.3, 0.4});
     std::vector<Eigen::Vector2d> points;
     intersect_traced(trace(a, p.z()), b, p.z(), points);
-    EXPECT_LT(nearest(points, p), 1e-5) << away;
+    EXPECT_LT(nearest_of(points, p), 1e-5) << away;
   }
 }
 
@@ -176,7 +176,7 @@ TEST(TracedConic, OfOtherFociMeetsInTheTag) {
     std::vector<Eigen::Vector2d> points;
     intersect_traced(trace(a, p.z()), b, p.z(), points);
     ++tried;
-    if (nearest(points, p) < 1e-6) ++found;
+    if (nearest_of(points, p) < 1e-6) ++found;
   }
   EXPECT_GT(tried, 200);
   // Two crossings between two points of the trace can be missed.

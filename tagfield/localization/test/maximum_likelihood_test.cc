@@ -21,7 +21,7 @@ struct Sums {
   int others = 0;
 };
 
-struct Setting {
+struct Conditions {
   made::Noise noise;
   bool offset_known = false;
   /// Height of the tags; if nullopt, that of the antenna, and known.
@@ -30,7 +30,7 @@ struct Setting {
 };
 
 /// Sums of errors and bounds, over 8 tags per seed on a path of two aisles.
-Sums sums_of(const Method& method, const Setting& setting) {
+Sums sums_of(const Method& method, const Conditions& setting) {
   Sums sums;
   for (unsigned seed = 1; seed <= setting.seeds; ++seed) {
     made::Rng rng(seed);
@@ -76,7 +76,7 @@ TEST(MaximumLikelihood, MeetsTheBound) {
 }
 
 TEST(MaximumLikelihood, MeetsItAtNoiseOfHalfARadian) {
-  Setting setting;
+  Conditions setting;
   setting.noise.phase_rad = 0.5;
   const Sums sums = sums_of(maximum_likelihood_method(), setting);
   EXPECT_LE(sums.others, 1);
@@ -85,7 +85,7 @@ TEST(MaximumLikelihood, MeetsItAtNoiseOfHalfARadian) {
 }
 
 TEST(MaximumLikelihood, MeetsItWhereReadsAreLost) {
-  Setting setting;
+  Conditions setting;
   setting.noise.lost = 0.3;
   const Sums sums = sums_of(maximum_likelihood_method(), setting);
   EXPECT_EQ(sums.others, 0);
@@ -93,7 +93,7 @@ TEST(MaximumLikelihood, MeetsItWhereReadsAreLost) {
 }
 
 TEST(MaximumLikelihood, MeetsItWithUnknownHeight) {
-  Setting setting;
+  Conditions setting;
   setting.height = 0.9;
   const Sums sums = sums_of(maximum_likelihood_method(), setting);
   EXPECT_EQ(sums.others, 0);
