@@ -12,7 +12,7 @@ namespace tagfield {
 namespace {
 
 constexpr Eigen::Index kLongAperture = 64;  ///< Reads from which several references are used.
-constexpr int kReferences = 4;
+constexpr Eigen::Index kReferences = 4;
 
 /// erfc(x), x ≥ 0, to 5·10⁻⁴ (Abramowitz and Stegun, 7.1.27).
 inline float complementary_error(float x) {
@@ -53,16 +53,16 @@ inline void add_phasors(const float* turns, float turns_scale, Against& against)
 inline void add_light(const SearchRead* reads, Eigen::Index count, float turns_scale,
                       const float* x, const float* y, float* light) {
   Against all[kReferences];
-  const int references = count >= kLongAperture ? kReferences : 1;
-  for (int k = 0; k < references; ++k) {
+  const Eigen::Index references = count >= kLongAperture ? kReferences : 1;
+  for (Eigen::Index k = 0; k < references; ++k) {
     residual_turns(reads[(2 * k + 1) * count / (2 * references)], x, y, all[k].reference);
   }
   for (Eigen::Index i = 0; i < count; ++i) {
     float turns[kWaveLanes];
     residual_turns(reads[i], x, y, turns);
-    for (int k = 0; k < references; ++k) add_phasors(turns, turns_scale, all[k]);
+    for (Eigen::Index k = 0; k < references; ++k) add_phasors(turns, turns_scale, all[k]);
   }
-  for (int r = 0; r < references; ++r) {
+  for (Eigen::Index r = 0; r < references; ++r) {
     const Against& one = all[r];
     for (int k = 0; k < kWaveLanes; ++k) {
       light[k] +=
