@@ -139,6 +139,12 @@ def world():
         b"<link name=l><collision name='c'><geometry><capsule/></geometry></collision></link></model>"
         b"</insertions><deletions><name>x</name></deletions><model name='m'><pose>0 0 1 0 0 0</pose>"
         b"<link name='l'><pose>1 1 1 0 0 0</pose></link></model></state></world></sdf>")
+    model = b"<model name='m'><link name='l'/></model><pose>1 2 3 0 0 1</pose><box><size>3 2 1</size></box>"
+    yield "populations", (
+        b"\3<sdf version='1.7'><world name='w'><population name='p'>" + model + b"<model_count>3"
+        b"</model_count><distribution><type>linear-x</type></distribution></population><population "
+        b"name='q'>" + model + b"<distribution><type>grid</type><rows>2</rows><cols>3</cols><step>0.5 0.5 0"
+        b"</step></distribution></population></world></sdf>")
     for path in sorted([*SOURCE.glob("worlds/*.sdf"), *SOURCE.glob("models/*/model.sdf")]):
         yield path.parent.name + "_" + path.stem, b"\3" + path.read_bytes()
 

@@ -144,11 +144,8 @@ class SceneGatherer {
 
 /// Parts of a world that would contain solids if they were supported.
 void warn_of_unused_parts(Context& context, const XMLElement& world) {
-  for (const char* name : {"population", "actor"}) {
-    if (const XMLElement* part = world.FirstChildElement(name)) {
-      context.diagnostics.warn(location_of(*part),
-                               fmt::format("<{}> is not supported: it is left out", name));
-    }
+  if (const XMLElement* actor = world.FirstChildElement("actor")) {
+    context.diagnostics.warn(location_of(*actor), "<actor> is not supported: it is left out");
   }
 }
 

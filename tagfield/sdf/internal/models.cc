@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "tagfield/sdf/internal/common_models.h"
+#include "tagfield/sdf/internal/population.h"
 
 namespace tagfield::sdf_internal {
 namespace {
@@ -93,7 +94,26 @@ class ModelReader {
       if (kind == "frame") add_frame(around.scope, child);
       if (kind == "model") add(around, model(child, nullptr));
       if (kind == "include") include(around, child);
+      if constexpr (std::is_same_v<Around, World>) {
+        if (kind == "population") populate(around, child);
+      }
     });
+  }
+
+  /// Copies of a model, which are upright wherever it stands itself.
+  void populate(World& world, const XMLElement& population) {
+    const XMLElement* const own = population.FirstChildElement("model");
+    const XMLElement* const other = population.FirstChildElement("include");
+    const std::vector<Eigen::Vector3d> positions = positions_of(context_, population);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      std::unique_ptr<Model> copy = own != nullptr     ? model(*own, nullptr)
+                                    : other != nullptr ? included(*other)
+                                                       : nullptr;
+      if (!copy) return;
+      copy->name += fmt::format("_clone_{}", i);
+      copy->frame = {&population, "", {Eigen::Quaterniond::Identity(), positions[i]}};
+      add(world, std::move(copy));
+    }
   }
 
   /// Models inserted while the world was running are saved in its <state>.

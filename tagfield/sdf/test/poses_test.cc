@@ -262,6 +262,78 @@ TEST_F(LoadWorldPoses, TheOldNameOfRelativeTo) {
   expect_pose(scene.collisions.at(0), {0.0, 0.0, 2.0}, 0.0);
 }
 
+/// Positions that the real Gazebo 11.1 gives these copies (`gz model -m a_clone_0 -p`, …).
+TEST_F(LoadWorldPoses, PopulationsStandAsInGazebo) {
+  const auto population = [](const std::string& name, const std::string& pose,
+                             const std::string& distribution) {
+    return "<population name='p'><model name='" + name + "'><pose>0.1 0.2 0.3 0 0 0.5</pose>" +
+           "<link name='l'>" + ball("c", "<pose>0 0 1 0 0 0</pose>") + "</link></model><pose>" +
+           pose + "</pose><box><size>4 2 1</size></box>" + distribution + "</population>";
+  };
+  const Scene scene = load(
+      population("x", "10 20 0.5 0 0 0.3",
+                 "<model_count>4</model_count><distribution><type>linear-x</type></distribution>") +
+      population("y", "30 20 0 0 0.2 0",
+                 "<model_count>3</model_count><distribution><type>linear-y</type></distribution>") +
+      population("z", "50 20 0 0 0 0",
+                 "<model_count>3</model_count><distribution><type>linear-z</type></distribution>") +
+      population("grid", "70 20 1 0 0 0.3",
+                 "<model_count>3</model_count><distribution><type>grid</type><rows>2</rows>"
+                 "<cols>3</cols><step>0.5 0.25 0.1</step></distribution>"));
+  const std::map<std::string, Eigen::Vector3d> expected = {
+      {"x_clone_0", {7.70448, 19.9553, 0.5}},       {"x_clone_1", {8.65982, 20.2509, 0.5}},
+      {"x_clone_3", {10.5705, 20.8419, 0.5}},       {"y_clone_0", {30.0595, 19.0, -0.407305}},
+      {"y_clone_1", {30.0595, 19.6667, -0.407305}}, {"z_clone_0", {50.0, 20.0, -0.5}},
+      {"z_clone_1", {50.0, 20.0, -0.166667}},       {"grid_clone_0", {69.5, 19.875, 1.0}},
+      {"grid_clone_1", {69.9777, 20.0228, 1.0}},    {"grid_clone_2", {70.4553, 20.1705, 1.0}},
+      {"grid_clone_3", {69.4261, 20.1138, 1.0}},    {"grid_clone_5", {70.3815, 20.4094, 1.0}}};
+  EXPECT_EQ(scene.models.size(), 4U + 3U + 3U + 6U);
+  std::size_t found = 0;
+  for (const Collision& collision : scene.collisions) {
+    const auto known = expected.find(collision.name.substr(0, collision.name.find(':')));
+    if (known == expected.end()) continue;
+    ++found;
+    const Eigen::Vector3d p_WC = known->second + Eigen::Vector3d::UnitZ();
+    EXPECT_LT((collision.X_WC.translation - p_WC).norm(), 1e-4) << collision.name;
+    EXPECT_LT(collision.X_WC.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-9);
+  }
+  EXPECT_EQ(found, expected.size());
+  EXPECT_TRUE(diagnostics_.warnings().empty());
+}
+
+TEST_F(LoadWorldPoses, PopulationsThatGazeboDoesNotPlaceAreLeftOut) {
+  const auto population = [](const std::string& name, const std::string& rest) {
+    return "<population name='" + name + "'><model name='m'><link name='l'>" + ball("c", "") +
+           "</link></model>" + rest + "</population>\n";
+  };
+  const std::string pose = "<pose>0 0 0 0 0 0</pose>";
+  const Scene scene =
+      load(population("a", pose + "<box/><distribution><type>random</type></distribution>") +
+           population("b", pose + "<distribution><type>linear-x</type></distribution>") +
+           population("c", pose + "<distribution><type>grid</type><rows>1</rows></distribution>") +
+           population("d", "<box/><distribution><type>linear-x</type></distribution>") +
+           population("e", pose + "<box/><distribution><type>round</type></distribution>"));
+  EXPECT_TRUE(scene.collisions.empty());
+  const std::vector<std::string> expected = {
+      ":3: <population> 'a' is left out: Gazebo draws the positions at random, others in each run",
+      ":4: <population> 'b' is left out: <population> lacks <box>",
+      ":5: <population> 'c' is left out: <distribution> lacks <cols>",
+      ":6: <population> 'd' is left out: <population> lacks <pose>",
+      ":7: <population> 'e' is left out: its distribution is 'round' (expected grid, linear-x, "
+      "linear-y or linear-z)"};
+  ASSERT_EQ(diagnostics_.warnings().size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NE(diagnostics_.warnings()[i].find(expected[i]), std::string::npos)
+        << diagnostics_.warnings()[i];
+  }
+  EXPECT_EQ(error_of(population("f", pose + "<box/><model_count>100001</model_count><distribution>"
+                                            "<type>linear-x</type></distribution>")),
+            "world.sdf:3: <model_count> of over 100000");
+  EXPECT_EQ(error_of(population("g", pose + "<distribution><type>grid</type><rows>1000</rows><cols>"
+                                            "1000</cols><step>1 1 0</step></distribution>")),
+            "world.sdf:3: a grid of over 100000 models");
+}
+
 TEST_F(LoadWorldPoses, AModelCalledWorldStandsAsWritten) {
   const Scene scene =
       load("<model name='world'><pose>1 2 3 0 0 0</pose><link name='l'>" +
