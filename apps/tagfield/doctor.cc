@@ -112,9 +112,9 @@ Ability gazebo() {
   const std::optional<std::string> version = output_of("gzserver --version");
   const std::string number = first_match(version.value_or(""), "version (11\\.[0-9.]*[0-9])");
   if (!number.empty()) return {"gazebo", true, "Gazebo " + number, ""};
-  const char* const told = std::getenv("TAGFIELD_GAZEBO_ROOT");
-  const fs::path root =
-      told != nullptr ? fs::path(told) : fs::path(TAGFIELD_SOURCES) / "build/gazebo-root";
+  const char* const given_root = std::getenv("TAGFIELD_GAZEBO_ROOT");
+  const fs::path root = given_root != nullptr ? fs::path(given_root)
+                                              : fs::path(TAGFIELD_SOURCES) / "build/gazebo-root";
   std::error_code error;
   if (fs::exists(root / "etc/tagfield-packages", error)) {
     return {"gazebo", true,

@@ -76,7 +76,7 @@ class EventTable final : public EventListener {
         fmt::format("{} {}, {:.3f} to {:.3f} s ({})\n", reports.cycle, reports.number,
                     to_seconds(reports.begin), to_seconds(reports.end), to_string(reports.why));
     for (const CycleReport& report : reports.reports) add(report);
-    ++told_cycles_;
+    ++reported_cycles_;
   }
   void add_present(const std::vector<PresenceEvent>& present) {
     for (const PresenceEvent& event : present) add(event, "still there");
@@ -89,7 +89,7 @@ class EventTable final : public EventListener {
     }
     all += cycles_;
     return all + fmt::format("{} times observed, {} times gone, {} cycles reported\n", observed_,
-                             gone_, told_cycles_);
+                             gone_, reported_cycles_);
   }
 
  private:
@@ -111,7 +111,7 @@ class EventTable final : public EventListener {
   std::string cycles_;
   std::size_t observed_ = 0;
   std::size_t gone_ = 0;
-  std::size_t told_cycles_ = 0;
+  std::size_t reported_cycles_ = 0;
 };
 
 /// EPCIS to a file: one document, or, if it is named ….jsonl, one event per line.

@@ -74,11 +74,11 @@ LocalizationOptions options_of(const LocalizeArguments& arguments,
   if (loaded) options = localization_options(loaded->scenario, arguments.threads);
   options.threads = arguments.threads;
   if (!arguments.method.empty()) options.method = arguments.method;
-  const MethodSettings told = settings_of(arguments);
-  options.settings.insert(options.settings.end(), told.begin(), told.end());
+  const MethodSettings given = settings_of(arguments);
+  options.settings.insert(options.settings.end(), given.begin(), given.end());
   const Method method = find_method(options.methods, options.method);
-  refuse_unused(told, {method}, options.methods);
-  configured(method, told);
+  refuse_unused(given, {method}, options.methods);
+  configured(method, given);
   take_known(arguments, reads, options.known);
   options.known.pose_error = pose_error_of(arguments, scenario_in(loaded), poses);
   options.known.map_error = map_error_of(arguments, poses);
@@ -164,9 +164,9 @@ bool is_empty(const Truth& truth) {
 }
 
 /// Stages reads, and the truth with its distances, that are not held in memory.
-void stage_unreported(const UnreportedReads& untold, const Truth& truth, StagedFolder& folder) {
-  const bool has_doppler = untold.overview.has_doppler;
-  const bool has_truth = untold.has_distances || !is_empty(truth);
+void stage_unreported(const UnreportedReads& unreported, const Truth& truth, StagedFolder& folder) {
+  const bool has_doppler = unreported.overview.has_doppler;
+  const bool has_truth = unreported.has_distances || !is_empty(truth);
   if (has_truth) stage_true_positions(truth, folder);
   ProgressBar bar("writing reads");
   BagReads rows;
@@ -177,14 +177,14 @@ void stage_unreported(const UnreportedReads& untold, const Truth& truth, StagedF
       append_row(read, has_doppler, reads.text());
       reads.sync();
     };
-    if (!has_truth) return untold.tell(rows);
+    if (!has_truth) return unreported.tell(rows);
     folder.add_written(kDistancesFile, [&](GrowingFile& distances) {
       distances.text() += kDistancesHeader;
       rows.on_distance = [&](const TrueDistance& distance) {
         append_row(distance, distances.text());
         distances.sync();
       };
-      untold.tell(rows);
+      unreported.tell(rows);
     });
   });
 }
@@ -194,7 +194,7 @@ void stage(const LoadedRecording& recording, const std::optional<ScenarioWithWor
            StagedFolder& folder) {
   if (!recording.table.empty()) {
     folder.add_copy("reads.csv", recording.table);
-  } else if (!recording.untold) {
+  } else if (!recording.unreported) {
     folder.add("reads.csv", reads_to_csv(recording.reads));
   }
   folder.add("antenna_poses.csv", poses_to_csv(recording.poses.poses));
@@ -208,8 +208,8 @@ void stage(const LoadedRecording& recording, const std::optional<ScenarioWithWor
   if (!options.known.reference_tags.empty()) {
     folder.add("reference_tags.csv", tag_positions_to_csv(options.known.reference_tags));
   }
-  if (recording.untold) {
-    stage_unreported(*recording.untold, recording.truth, folder);
+  if (recording.unreported) {
+    stage_unreported(*recording.unreported, recording.truth, folder);
   } else if (!is_empty(recording.truth)) {
     stage_truth(recording.truth, folder);
   }
@@ -386,7 +386,7 @@ int localize(const LocalizeArguments& arguments) {
   if (arguments.as_json) {
     fmt::print("{}", to_json(summary));
   } else {
-    fmt::print("{}\n{}page: {}/report.html\n", told_of_reads(overview), table_of(summary), out);
+    fmt::print("{}\n{}page: {}/report.html\n", summary_of_reads(overview), table_of(summary), out);
   }
   return kExitOk;
 }

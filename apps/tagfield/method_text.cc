@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-std::string told_of(const SettingHelp& help) {
+std::string setting_line(const SettingHelp& help) {
   const std::string unit = help.unit.empty() ? "" : fmt::format(" [{}]", help.unit);
   const std::string range = help.range.empty() ? "" : help.range + ", ";
   return fmt::format("    {:<26} {} ({}else {})\n", help.key + unit, help.meaning, range,
@@ -33,7 +33,7 @@ std::string methods_help() {
     for (const SettingHelp& help : method.settings) {
       // Settings of the methods that "auto" chooses among are listed there.
       if (method.name == "auto" && is_of_another(methods, help.key)) continue;
-      text += told_of(help);
+      text += setting_line(help);
     }
   }
   return text;

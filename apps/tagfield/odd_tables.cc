@@ -48,7 +48,7 @@ void warn_of_odd_poses(const std::string& file, const std::vector<AntennaPose>& 
   warn_of_order(file, backwards, poses.size(), diagnostics);
 }
 
-std::string told_of_reads(const ReadOverview& reads) {
+std::string summary_of_reads(const ReadOverview& reads) {
   std::string text =
       fmt::format("{} of {} by {}", counted(reads.count, "read"), counted(reads.tags.size(), "tag"),
                   counted(reads.last_by_antenna.size(), "antenna"));

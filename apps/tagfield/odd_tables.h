@@ -21,6 +21,6 @@ void warn_of_odd_poses(const std::string& file, const std::vector<AntennaPose>& 
                        Diagnostics& diagnostics);
 
 /// "1200 reads of 10 tags by 1 antenna on 4 carriers from 865.7 to 867.5 MHz".
-std::string told_of_reads(const ReadOverview& reads);
+std::string summary_of_reads(const ReadOverview& reads);
 
 }  // namespace tagfield

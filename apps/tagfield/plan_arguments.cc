@@ -13,7 +13,7 @@ namespace tagfield {
 namespace {
 
 /// Progress callback for one stage, if requested.
-std::function<void(double share)> told_of(const PlanQuestion& question, const char* stage) {
+std::function<void(double share)> stage_progress(const PlanQuestion& question, const char* stage) {
   if (!question.on_progress) return {};
   return [&question, stage](double share) { question.on_progress(stage, share); };
 }
@@ -25,7 +25,7 @@ LinkMatrix links_of(const ScenarioToPlan& to_plan, const PlanQuestion& question,
   request.threads = question.threads;
   request.folder = question.links;
   request.stop = question.stop;
-  request.on_progress = told_of(question, "links");
+  request.on_progress = stage_progress(question, "links");
   LinkMatrixCounts counts;
   LinkMatrix matrix = evaluate_links(to_plan, request, counts);
   if (counts.damaged > 0) {
@@ -43,7 +43,7 @@ AntennaPlan layouts_of(const ScenarioToPlan& to_plan, const LinkMatrix& matrix,
   request.threads = question.threads;
   request.exact_s = question.exact_s;
   request.stop = question.stop;
-  request.on_progress = told_of(question, "layouts");
+  request.on_progress = stage_progress(question, "layouts");
   return make_plan(to_plan, matrix, request);
 }
 
@@ -65,7 +65,7 @@ void add_check(const ScenarioToPlan& to_plan, const PlanQuestion& question, Ante
   RunControl control;
   control.threads = question.threads;
   control.stop = question.stop;
-  control.on_progress = told_of(question, "check");
+  control.on_progress = stage_progress(question, "check");
   plan.check =
       check_plan(to_plan, plan.layouts[plan.chosen], question.seed, question.check_seeds, control);
 }

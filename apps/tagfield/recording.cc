@@ -130,10 +130,10 @@ std::size_t max_reads(const BagArguments& arguments, bool keep) {
 
 /// Number of reads per part if they are to be processed in parts: also those that should be kept in
 /// memory but don't fit.
-std::optional<std::size_t> part_of_bag(const BagArguments& arguments, const UnreportedReads& untold,
-                                       bool keep) {
+std::optional<std::size_t> part_of_bag(const BagArguments& arguments,
+                                       const UnreportedReads& unreported, bool keep) {
   if (arguments.part_reads) return arguments.part_reads;
-  const bool in_parts = keep || untold.overview.count > kManyReads;
+  const bool in_parts = keep || unreported.overview.count > kManyReads;
   return in_parts ? std::optional(kReadsOfPart) : std::nullopt;
 }
 
@@ -141,8 +141,8 @@ std::optional<std::size_t> part_of_bag(const BagArguments& arguments, const Unre
 void take_unreported(const BagArguments& arguments, const std::string& out,
                      const std::set<std::string>& references, bool keep, LoadedRecording& recording,
                      Diagnostics& diagnostics) {
-  keep_elsewhere(reads_of_bag(arguments.bag, *recording.untold),
-                 part_of_bag(arguments, *recording.untold, keep), out, references, recording,
+  keep_elsewhere(reads_of_bag(arguments.bag, *recording.unreported),
+                 part_of_bag(arguments, *recording.unreported, keep), out, references, recording,
                  diagnostics);
   if (!recording.stored) return;
   recording.other = {};
@@ -211,7 +211,7 @@ LoadedRecording bag_recording(const BagArguments& arguments, const std::string& 
   compare_frames(arguments.bag, bag,
                  recording.poses.name != "true" || !recording.other.poses.empty(), diagnostics);
   if (bag.untold) {
-    recording.untold = std::move(bag.untold);
+    recording.unreported = std::move(bag.untold);
     take_unreported(arguments, out, references, keep, recording, diagnostics);
   } else {
     recording.reads = std::move(bag.reads);

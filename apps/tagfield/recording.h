@@ -29,9 +29,9 @@ struct LoadedRecording {
   std::vector<TagRead> reads;  ///< All, or none if they are stored or not kept.
   /// If reads are not kept: they are read again each time they are needed.
   std::optional<ReadSource> source;
-  std::optional<StoredReads> stored;      ///< If they don't fit in memory.
-  std::string table;                      ///< Source of reads that are not kept, or "".
-  std::optional<UnreportedReads> untold;  ///< Same, for a bag.
+  std::optional<StoredReads> stored;          ///< If they don't fit in memory.
+  std::string table;                          ///< Source of reads that are not kept, or "".
+  std::optional<UnreportedReads> unreported;  ///< Same, for a bag.
   ReadOverview overview;
   NamedPoses poses;
   NamedPoses other;  ///< For comparison; empty if there are none.

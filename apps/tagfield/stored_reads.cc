@@ -100,10 +100,10 @@ ReadSource reads_of_table(const std::string& table) {
   return source;
 }
 
-ReadSource reads_of_bag(const std::string& bag, const UnreportedReads& untold) {
-  return {bag, untold.overview,
-          [tell = untold.tell](const std::function<void(const TagRead&)>& take,
-                               const std::function<void(double)>& on_progress) {
+ReadSource reads_of_bag(const std::string& bag, const UnreportedReads& unreported) {
+  return {bag, unreported.overview,
+          [tell = unreported.tell](const std::function<void(const TagRead&)>& take,
+                                   const std::function<void(double)>& on_progress) {
             tell({take, {}, on_progress});
           }};
 }

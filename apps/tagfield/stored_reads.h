@@ -58,7 +58,7 @@ struct ReadSource {
 ReadSource reads_of_table(const std::string& table);
 
 /// Reads of a recording.
-ReadSource reads_of_bag(const std::string& bag, const UnreportedReads& untold);
+ReadSource reads_of_bag(const std::string& bag, const UnreportedReads& unreported);
 
 struct StoredReads {
   ReadSource source;

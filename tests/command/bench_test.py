@@ -40,17 +40,17 @@ def bench(context, suite, *arguments, name="out"):
 @case
 def writes_tables_and_a_page(context):
     folder = bench(context, suite_of(context, SMALL, methods=METHODS))
-    told = read_json(folder / "bench.json")
-    check_equal((told["suite"], told["complete"]), ("suite", True), "suite, complete")
-    check_equal([entry["condition"] + "/" + entry["name"] for entry in told["entries"]],
+    summary = read_json(folder / "bench.json")
+    check_equal((summary["suite"], summary["complete"]), ("suite", True), "suite, complete")
+    check_equal([entry["condition"] + "/" + entry["name"] for entry in summary["entries"]],
                 ["true pose/hyperbola", "true pose/coarse", "lossy/hyperbola", "lossy/coarse",
                  "pose 2 cm/hyperbola"], "entries")
-    for entry in told["entries"]:
+    for entry in summary["entries"]:
         check_equal((entry["runs"], entry["tags"]), (2, 20), "runs and tags")
         check(entry["time_per_tag_ms"] > 0.0, "no time")
         check_equal(entry["located"] + entry["ambiguous"] + entry["not_located"], 20, "verdicts")
     rows = read_csv(folder / "bench.csv")
-    for row, entry in zip(rows, told["entries"]):
+    for row, entry in zip(rows, summary["entries"]):
         for key in NUMBERS:
             check_equal(int(row[key]), entry[key], f"{key} in bench.csv")
         check_equal(float(row["mean_m"]), entry["error_m"]["mean"], "mean_m")
@@ -163,7 +163,7 @@ NO_PLACE = ("duplicate EPCs", "poses of another run", "slow tags", BY_STRENGTH)
 
 
 @case
-def false_claims_are_told_from_others(context):
+def false_claims_are_counted(context):
     folder = context.source / "scenarios/bench"
     text = (folder / "false_claims.yaml").read_text(encoding="utf-8")
     # By RSSI alone, a slow tag looks like a static one if its phases are random.
@@ -186,14 +186,14 @@ def false_claims_are_told_from_others(context):
     check_equal(entries["as it is", "hyperbola"]["located"], 40, "tags located without a fault")
     check_equal(entries["slow tags", "trilateration"]["false_claims"], 0, "slow tags that were claimed")
     check(entries[BY_STRENGTH, "trilateration"]["false_claims"] > 0, "no slow tag was claimed")
-    told = {told["name"]: told for told in read_json(folder / "bench.json")["conditions"]}
-    check_equal(told["duplicate EPCs"]["faults"], ["duplicate_epcs"], "faults")
-    check_equal(told["duplicate EPCs"]["no_bound"], "the reads are faulty", "bound of faulty reads")
-    check_equal(told["slow tags"]["faults"], [], "faults of slow tags")
+    conditions = {condition["name"]: condition for condition in read_json(folder / "bench.json")["conditions"]}
+    check_equal(conditions["duplicate EPCs"]["faults"], ["duplicate_epcs"], "faults")
+    check_equal(conditions["duplicate EPCs"]["no_bound"], "the reads are faulty", "bound of faulty reads")
+    check_equal(conditions["slow tags"]["faults"], [], "faults of slow tags")
 
 
 @case
-def errors_are_told_over_what_was_expected(context):
+def errors_are_compared_with_what_was_expected(context):
     folder = bench(context, suite_of(context, SMALL), "--conditions", "true pose")
     own = [float(row["error_m"]) / float(row["expected_error_m"])
            for row in read_csv(folder / "tags.csv") if row["error_m"]]
@@ -217,9 +217,9 @@ def twins(context):
 def recordings_are_judged_by_their_truth(context):
     folder = twins(context)
     out = bench(context, folder / "suite.yaml", "--seeds", "3", "--no-timing")
-    told = read_json(out / "bench.json")
+    summary = read_json(out / "bench.json")
     check_equal([(of["name"], of["recording"], of["scenario"], of["pose"], of["runs_planned"])
-                 for of in told["conditions"]],
+                 for of in summary["conditions"]],
                 [(name, "reads.csv", None, "given", 1)
                  for name in ("circle one channel", "rail one channel")], "conditions")
     rows = read_csv(out / "tags.csv")
@@ -263,9 +263,9 @@ def recordings_that_are_not_there_are_skipped(context):
     result = context.run_well("bench", folder / "suite.yaml", "--out", "out")
     check_equal(result.err, f"tagfield: warning: {folder}/suite.yaml:7: condition 'rail one channel' "
                 f"is skipped: there is no {folder}/rail_one_channel/truth.csv\n", "warning")
-    told = read_json(context.folder / "out/bench.json")
-    check_equal([of["name"] for of in told["conditions"]], ["circle one channel"], "conditions")
-    check_equal((told["complete"], len(told["warnings"])), (True, 1), "complete, warnings")
+    summary = read_json(context.folder / "out/bench.json")
+    check_equal([of["name"] for of in summary["conditions"]], ["circle one channel"], "conditions")
+    check_equal((summary["complete"], len(summary["warnings"])), (True, 1), "complete, warnings")
     (folder / "circle_one_channel/reads.csv").unlink()
     context.run_well("bench", folder / "suite.yaml", "--out", "none")
     check_equal(read_csv(context.folder / "none/bench.csv"), [], "rows where nothing is there")
@@ -299,14 +299,14 @@ def archives_are_as_good_as_their_tables(context):
 def filters_choose(context):
     suite = suite_of(context, SMALL, methods=METHODS)
     folder = bench(context, suite, "--methods", "coarse", "--seeds", "1", "--no-page")
-    told = read_json(folder / "bench.json")
-    check_equal([entry["condition"] for entry in told["entries"]], ["true pose", "lossy"],
+    summary = read_json(folder / "bench.json")
+    check_equal([entry["condition"] for entry in summary["entries"]], ["true pose", "lossy"],
                 "conditions with coarse")
-    check_equal({entry["runs"] for entry in told["entries"]}, {1}, "runs with --seeds 1")
+    check_equal({entry["runs"] for entry in summary["entries"]}, {1}, "runs with --seeds 1")
     check(not (folder / "bench.html").exists(), "bench.html is there with --no-page")
     folder = bench(context, suite, "--conditions", "lossy,true pose", "--seeds", "1", name="two")
-    told = read_json(folder / "bench.json")
-    check_equal([condition["name"] for condition in told["conditions"]], ["true pose", "lossy"],
+    summary = read_json(folder / "bench.json")
+    check_equal([condition["name"] for condition in summary["conditions"]], ["true pose", "lossy"],
                 "conditions, in the suite's order")
 
 
@@ -314,10 +314,10 @@ def filters_choose(context):
 def methods_are_listed(context):
     result = context.run_well("bench", "--list-methods")
     check_in("hyperbola", result.out, "--list-methods")
-    told = context.run_well("bench", "--help").out
+    help_text = context.run_well("bench", "--help").out
     for word in ("SUITE", "--seeds", "--methods", "--conditions", "--no-timing", "conditions:",
                  "bench.html", "scenarios/bench/paper_warehouse.yaml"):
-        check_in(word, told, "bench --help")
+        check_in(word, help_text, "bench --help")
 
 
 BAD = (  # the suite's conditions, the line of the error, its message

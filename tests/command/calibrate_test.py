@@ -90,8 +90,8 @@ def several_experiments_tell_what_carries_over(context):
     reads, poses = write_faulty(context, run)
     tags = write_tags(context, run)
     common = ("--poses", poses, "--tags", tags, "--out", context.folder / "profile.yaml")
-    told = context.run_well("calibrate", reads, reads, reads, *common)
-    check_in("position x      30.", told.out.replace("29.", "30."), "what is the same in all")
+    result = context.run_well("calibrate", reads, reads, reads, *common)
+    check_in("position x      30.", result.out.replace("29.", "30."), "what is the same in all")
     two = context.run("calibrate", reads, reads, *common)
     check_equal(two.code, 2, "exit code of two")
     check_in("two experiments do not show what carries over", two.err, "stderr of two")
@@ -101,7 +101,7 @@ def several_experiments_tell_what_carries_over(context):
 
 
 @case
-def bad_input_is_told_in_one_line(context):
+def bad_input_gives_one_line(context):
     reads = context.write("reads.csv", "stamp_s,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n"
                                        "1,a,t,865.7e6,1,-50\n")
     poses = context.write("poses.csv", "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n"

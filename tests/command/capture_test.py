@@ -175,9 +175,9 @@ def a_refusal_is_an_error_in_one_line(context):
         check_in(f"HTTP {status}: {{\"title\": \"no\\nway\",\\x1b", result.err, "what it said")
         check_in(f"captured 0 of {len(events)} events", result.err, "the error")
         check(all(line.startswith("tagfield: ") for line in result.err.splitlines()), result.err)
-        check("p%40ss" not in result.err and "p@ss" not in result.err, f"password told: {result.err}")
-        told = base64.b64decode(repository.requests[0]["Authorization"].split()[1])
-        check_equal(told, b"me:p@ss", "user and password")
+        check("p%40ss" not in result.err and "p@ss" not in result.err, f"password shown: {result.err}")
+        sent = base64.b64decode(repository.requests[0]["Authorization"].split()[1])
+        check_equal(sent, b"me:p@ss", "user and password")
 
 
 @case
@@ -230,11 +230,11 @@ def a_silent_repository_holds_nobody_up(context):
             time.sleep(0.05)
         begun = time.monotonic()
         process.send_signal(signal.SIGTERM)
-        _, told = process.communicate(timeout=20)
+        _, warnings = process.communicate(timeout=20)
         took = time.monotonic() - begun
         check_equal(process.returncode, 2, "exit code where events were not captured")
         check(took < 1, f"it took {took:.2f} s to end")
-        check_in("events were lost, the last", told.decode(), "warnings")
+        check_in("events were lost, the last", warnings.decode(), "warnings")
 
 
 @case

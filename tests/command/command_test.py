@@ -48,14 +48,14 @@ def check_describes_our_world(context):
     result = context.run_well("check", world)
     check_equal(result.err, "", "warnings of our own world")
     check_in("world: small_warehouse", result.out, "check")
-    told = json.loads(context.run_well("check", "--json", world).out)
-    check_equal(told["warnings"], [], "warnings")
-    check(len(told["models"]) >= 5, f"models are {told['models']}")
-    check_equal(told["triangles"], sum(c["triangles"] for c in told["collisions"]), "triangles")
-    check_in(f"models: {len(told['models'])}\n", result.out, "check")
-    check_in(f"collisions: {len(told['collisions'])}, {told['triangles']} triangles", result.out,
+    described = json.loads(context.run_well("check", "--json", world).out)
+    check_equal(described["warnings"], [], "warnings")
+    check(len(described["models"]) >= 5, f"models are {described['models']}")
+    check_equal(described["triangles"], sum(c["triangles"] for c in described["collisions"]), "triangles")
+    check_in(f"models: {len(described['models'])}\n", result.out, "check")
+    check_in(f"collisions: {len(described['collisions'])}, {described['triangles']} triangles", result.out,
              "check")
-    check_equal((told["antennas"], told["tags"]), ([], []), "antennas and tags of the bare world")
+    check_equal((described["antennas"], described["tags"]), ([], []), "antennas and tags of the bare world")
 
 
 @case
@@ -64,18 +64,18 @@ def check_describes_every_scenario(context):
         path = context.shipped(name)
         result = context.run_well("check", path)
         check_equal(result.err, "", f"warnings of {name}")
-        told = json.loads(context.run_well("check", "--json", path).out)
-        check_equal(told["scenario"], name, "scenario")
-        check_equal(told["world"], "small_warehouse", "world")
+        described = json.loads(context.run_well("check", "--json", path).out)
+        check_equal(described["scenario"], name, "scenario")
+        check_equal(described["world"], "small_warehouse", "world")
         for kind, key in (("antennas", "name"), ("tags", "id"), ("robots", "name")):
-            check(told[kind], f"{name} has no {kind}")
-            for body in told[kind]:
+            check(described[kind], f"{name} has no {kind}")
+            for body in described[kind]:
                 check_in(body[key], result.out, f"check {name}")
-    told = json.loads(context.run_well("check", "--json", context.shipped("paper_warehouse")).out)
-    check_equal(len(told["tags"]), 10, "tags of paper_warehouse")
-    check_equal(told["antennas"][0]["frequency_hz"], 865.7e6, "frequency_hz")
-    check_equal(told["tags"][0], {"id": "tag1", "on": "world", "position_m": [4.58, -6.4, 1.25],
-                                  "moves": False}, "tag1")
+    described = json.loads(context.run_well("check", "--json", context.shipped("paper_warehouse")).out)
+    check_equal(len(described["tags"]), 10, "tags of paper_warehouse")
+    check_equal(described["antennas"][0]["frequency_hz"], 865.7e6, "frequency_hz")
+    check_equal(described["tags"][0], {"id": "tag1", "on": "world", "position_m": [4.58, -6.4, 1.25],
+                                       "moves": False}, "tag1")
     changed = context.run_well("check", "--json", context.shipped("z_axis"), "--set",
                                "antennas.mobile.range_m=5")
     check_equal(json.loads(changed.out)["antennas"][0]["range_m"], 5, "range_m by --set")
@@ -83,18 +83,18 @@ def check_describes_every_scenario(context):
 
 @case
 def check_describes_the_aws_warehouse(context):
-    told = json.loads(context.run_well("check", "--json", context.aws_world()).out)
+    described = json.loads(context.run_well("check", "--json", context.aws_world()).out)
     # Each model of the world contains an included model.
-    top = [model for model in told["models"] if "::" not in model]
+    top = [model for model in described["models"] if "::" not in model]
     check_equal(len(top), 25, "models of the world itself")
-    check_equal(len(told["collisions"]), 25, "collisions")
-    for collision in told["collisions"]:
+    check_equal(len(described["collisions"]), 25, "collisions")
+    for collision in described["collisions"]:
         check(collision["shape"] == "mesh" and collision["triangles"] > 0, f"{collision}")
-    check(told["triangles"] > 0, "no triangles")
-    check_equal(told["warnings"], [], "warnings")
-    told = json.loads(context.run_well("check", "--json", context.shipped("aws_warehouse"), "--set",
-                                       f"world.path={context.aws_world()}").out)
-    check_equal((len(told["antennas"]), len(told["tags"])), (2, 10), "antennas, tags")
+    check(described["triangles"] > 0, "no triangles")
+    check_equal(described["warnings"], [], "warnings")
+    described = json.loads(context.run_well("check", "--json", context.shipped("aws_warehouse"), "--set",
+                                            f"world.path={context.aws_world()}").out)
+    check_equal((len(described["antennas"]), len(described["tags"])), (2, 10), "antennas, tags")
 
 
 # --- A terminal, and signals ----------------------------------------------------------------------
@@ -307,9 +307,9 @@ def an_interrupted_bench_keeps_the_finished_runs(context):
     code, said = session.finish()
     check_equal(code, 130, "exit code")
     check_in("INCOMPLETE", said, "stdout")
-    told = read_json(context.folder / "out/bench.json")
-    check_equal(told["complete"], False, "complete")
-    entry = told["entries"][0]
+    summary = read_json(context.folder / "out/bench.json")
+    check_equal(summary["complete"], False, "complete")
+    entry = summary["entries"][0]
     check_between(entry["runs"], 100, 19999, "number of finished runs")
     check_equal(len(read_csv(context.folder / "out/tags.csv")), entry["tags"], "rows of tags.csv")
     check_in("Incomplete", (context.folder / "out/bench.html").read_text(encoding="utf-8"), "page")

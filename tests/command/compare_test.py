@@ -15,9 +15,9 @@ def sets_errors_side_by_side_tag_by_tag(context):
     second = context.folder / "second"
     context.run_well("localize", first, "--method", "sar", "--out", second)
     out = context.folder / "both"
-    told = context.run_well("compare", first, second, "--out", out)
-    check_in("mean error [mm]", told.out, "table")
-    check_in(f"page: {out}/compare.html", told.out, "page")
+    result = context.run_well("compare", first, second, "--out", out)
+    check_in("mean error [mm]", result.out, "table")
+    check_in(f"page: {out}/compare.html", result.out, "page")
     # Results of 'localize' are evaluated as by 'score'.
     scored = context.run_well("score", second / "estimates.csv", "--run", first, "--json")
     summaries = [read_json(first / "summary.json"), json.loads(scored.out)]
@@ -49,10 +49,10 @@ def sets_errors_side_by_side_tag_by_tag(context):
 @case
 def of_a_run_with_itself_nothing_differs(context):
     run = context.simulate(SCENARIO, "--no-page")
-    told = json.loads(context.run_well("compare", run, run, "--json").out)
-    check_equal(told["error_difference_m"]["mean"], 0, "mean")
-    check_equal(told["error_difference_m"]["smaller"], 0, "smaller")
-    check_equal(told["warnings"], [], "warnings")
+    comparison = json.loads(context.run_well("compare", run, run, "--json").out)
+    check_equal(comparison["error_difference_m"]["mean"], 0, "mean")
+    check_equal(comparison["error_difference_m"]["smaller"], 0, "smaller")
+    check_equal(comparison["warnings"], [], "warnings")
 
 
 @case

@@ -53,13 +53,13 @@ def reads_become_events(context):
     reads = context.write("reads.csv", READS)
     spec = context.write("spec.yaml", SPEC)
     events = events_of(context, reads, "--spec", spec)
-    told = [(e["timestamp"][17:23], e["eventType"], e["epc"]) for e in events
-            if e["eventType"] != "cycle"]
+    presence = [(e["timestamp"][17:23], e["eventType"], e["epc"]) for e in events
+                if e["eventType"] != "cycle"]
     sgtin = "3074257BF7194E4000001A85"
-    check_equal(told, [("00.100", "glimpsed", sgtin), ("00.300", "observed", sgtin),
-                       ("00.400", "glimpsed", "E2801160600002054CC2096F"),
-                       ("00.400", "glimpsed", "pallet 7"), ("01.300", "gone", sgtin),
-                       ("02.500", "glimpsed", "pallet 7")], "presence")
+    check_equal(presence, [("00.100", "glimpsed", sgtin), ("00.300", "observed", sgtin),
+                           ("00.400", "glimpsed", "E2801160600002054CC2096F"),
+                           ("00.400", "glimpsed", "pallet 7"), ("01.300", "gone", sgtin),
+                           ("02.500", "glimpsed", "pallet 7")], "presence")
     gone = [e for e in events if e["eventType"] == "gone"][0]
     check_equal(gone["epcUri"], "urn:epc:id:sgtin:0614141.812345.6789", "epcUri")
     check_equal((gone["reads"], gone["peakRssiCdbm"], gone["logicalReader"]), (3, -4550, "belt"),

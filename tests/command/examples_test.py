@@ -53,9 +53,9 @@ def own_world(context):
     commands = documented_commands(example / "workshop.yaml")
     check_equal([command[0] for command in commands], ["check", "run"], "commands of the example")
     out = context.folder / "out"
-    told = [run_documented(context, command, out).out for command in commands]
+    outputs = [run_documented(context, command, out).out for command in commands]
     for word in ("drill", "gate_antenna", "pallet", "cupboard"):
-        check_in(word, told[0], "check")
+        check_in(word, outputs[0], "check")
     tags = {tag["id"]: tag for tag in read_json(out / "summary.json")["tags"]}
     check_equal(set(tags), {"drill", "toolbox"}, "tags")
     check_equal(tags["drill"]["truth_m"], [0.3, 2.74, 1.3], "place of the drill")
@@ -144,34 +144,34 @@ def check_own_method(context, prefix):
     check(mean_mm[2] != mean_mm[1], f"its setting changes nothing: {out!r}")
 
 
-def told_rates(reads, distances, interval_s=5.0):
+def expected_rates(reads, distances, interval_s=5.0):
     """Reads per second of each antenna and the maximum distance so far, every interval_s, from tables."""
-    told, counts, farthest, end = [], {}, 0.0, interval_s
+    rows, counts, farthest, end = [], {}, 0.0, interval_s
     for read, distance in zip(reads, distances):
         farthest = max(farthest, float(distance["distance_m"]))
         if float(read["stamp_s"]) >= end:
-            told.append((end, {name: n / interval_s for name, n in counts.items()}, farthest))
+            rows.append((end, {name: n / interval_s for name, n in counts.items()}, farthest))
             counts = dict.fromkeys(counts, 0)
             while end <= float(read["stamp_s"]):
                 end += interval_s
         counts[read["antenna"]] = counts.get(read["antenna"], 0) + 1
-    return told
+    return rows
 
 
 def check_own_outlet(context, prefix):
     out = build_example(context, prefix, "06_own_outlet", context.shipped("two_antennas"))
     folder = context.simulate("two_antennas", "--no-page")
-    expected = told_rates(read_csv(folder / "reads.csv"), read_csv(folder / "truth/distances.csv"))
+    expected = expected_rates(read_csv(folder / "reads.csv"), read_csv(folder / "truth/distances.csv"))
     lines = out.splitlines()
     check(len(lines) > 3, f"own_outlet prints {out!r}")
     check_equal(len(lines), len(expected), "lines of own_outlet")
     for line, (end, rates, farthest) in zip(lines, expected):
         check(line.startswith(f"{end:5.1f} s:"), f"{line!r} is of {end} s")
         check_near(float(re.search(r"up to ([\d.]+) m", line).group(1)), farthest, 0.006, line)
-        told = {name: float(rate) for name, rate in re.findall(r" (\w+) (\d+) reads/s", line)}
-        check_equal(set(told), set(rates), f"antennas in {line!r}")
+        printed = {name: float(rate) for name, rate in re.findall(r" (\w+) (\d+) reads/s", line)}
+        check_equal(set(printed), set(rates), f"antennas in {line!r}")
         for name, rate in rates.items():
-            check_near(told[name], rate, 0.51, f"rate of {name} in {line!r}")
+            check_near(printed[name], rate, 0.51, f"rate of {name} in {line!r}")
 
 
 def check_installed_command(context, prefix):
@@ -240,9 +240,9 @@ def planning_environment(context):
     example = context.source / "examples/10_planning_environment/read_aware_env.py"
     result = run(["env", f"PYTHONPATH={package}", "/usr/bin/python3", "-B", example])
     check_equal(result.code, 0, f"exit code: {result.err[-300:]}")
-    told = dict(re.findall(r"^(\w+): (\d+) of 10 tags", result.out, re.MULTILINE))
-    check_equal(told.get("greedy"), "10", f"tags that the greedy policy reads: {result.out!r}")
-    check_between(int(told.get("random", -1)), 0, 9, "tags that the random one reads")
+    counts = dict(re.findall(r"^(\w+): (\d+) of 10 tags", result.out, re.MULTILINE))
+    check_equal(counts.get("greedy"), "10", f"tags that the greedy policy reads: {result.out!r}")
+    check_between(int(counts.get("random", -1)), 0, 9, "tags that the random one reads")
 
 
 if __name__ == "__main__":

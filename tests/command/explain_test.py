@@ -37,8 +37,8 @@ def friis_db(distance):
 def explained(context, scenario, *arguments):
     def refuse(word):
         raise ValueError(f"{word} in JSON")
-    told = context.run_well("explain", scenario, "--json", *arguments)
-    return json.loads(told.out, parse_constant=refuse)
+    result = context.run_well("explain", scenario, "--json", *arguments)
+    return json.loads(result.out, parse_constant=refuse)
 
 
 # --- explain --------------------------------------------------------------------------------------
@@ -96,16 +96,16 @@ def the_lines_add_up(context):
 
 
 @case
-def materials_are_told_at_the_carrier(context):
-    told = {}
+def materials_are_given_at_the_carrier(context):
+    materials = {}
     for hertz in (865.7e6, 2.4e9):
         link = explained(context, context.shipped("paper_warehouse"), *MULTIPATH, "--tag", "tag1",
                          "--set", f"antennas.mobile.frequency_hz={hertz}",
                          "--set", "world.default_material=medium_dry_ground",
                          "--set", "world.materials={'*': medium_dry_ground}")
-        told[hertz], = link["materials"]
+        materials[hertz], = link["materials"]
     # P.2040-3: 15·f^−0.1, 0.035·f^1.63, from 1 GHz up.
-    for hertz, material in told.items():
+    for hertz, material in materials.items():
         ghz = hertz / 1e9
         check_near(material["permittivity"], 15.0 * ghz ** -0.1, 1e-9, f"{hertz}")
         check_near(material["conductivity_s_m"], 0.035 * ghz ** 1.63, 1e-9, f"{hertz}")
@@ -250,23 +250,23 @@ tags:
     # λ/2 apart: Z₂₁ = −12.52 − j29.91 Ω (Balanis), 1/(1 + Z₂₁/2R) with chips matched to 73.1 Ω.
     factor = 1.0 / (1.0 + complex(-12.52, -29.91) / (2.0 * 73.08))
     expected = 20.0 * math.log10(abs(factor))
-    told = {}
+    links = {}
     for coupling in ("off", "on"):
-        told[coupling] = explained(context, path, "--tag", "left", "--set",
-                                   f"tag_coupling={coupling}")
-    link = told["on"]
+        links[coupling] = explained(context, path, "--tag", "left", "--set",
+                                    f"tag_coupling={coupling}")
+    link = links["on"]
     line, = [line["db"] for line in link["to_tag"]
              if line["what"] == "coupling with 1 tag nearby"]
     check_near(line, expected, 0.002, "two of them")
-    check_near(link["tag_dbm"] - told["off"]["tag_dbm"], expected, 0.002, "to the tag")
-    check_near(link["reply_dbm"] - told["off"]["reply_dbm"], 2.0 * expected, 0.004, "and back")
+    check_near(link["tag_dbm"] - links["off"]["tag_dbm"], expected, 0.002, "to the tag")
+    check_near(link["reply_dbm"] - links["off"]["reply_dbm"], 2.0 * expected, 0.004, "and back")
     check_near(sum(line["db"] for line in link["to_tag"]), link["tag_dbm"], 1e-6, "the lines")
     check_near(sum(line["db"] for line in link["to_reader"]), link["reply_dbm"], 1e-6, "the lines")
     near, = link["near_tags"]
     check_equal(near["tag"], "right", "who is near")
     check_near(near["distance_m"], 0.173087, 1e-9, "how near")
     check_near(near["alone_db"], line, 1e-9, "alone")
-    check_equal(told["off"]["near_tags"], [], "off")
+    check_equal(links["off"]["near_tags"], [], "off")
     out = context.run_well("explain", path, "--tag", "left", "--set", "tag_coupling=on").out
     check_in("right, 0.173 m", out, "text")
     rows = read_csv(context.simulate(path, "--no-page", "--record-only", "--set",
@@ -330,10 +330,10 @@ def coverage_is_a_circle_in_the_open(context):
         check_equal(float(cell["probability"]), 1.0 if distance <= radius else 0.0,
                     f"probability at {distance} m")
         check_near(float(cell["power_dbm"]), 20.0 + friis_db(distance), 0.006, "power")
-    told = read_json(out / "coverage.json")
-    check_near(told["heights"][0]["share_read"], math.pi * radius ** 2 / 64.0, 0.01, "share")
-    check_equal(told["region_m"], [-4.0, -4.0, 4.0, 4.0], "region")
-    check_equal(told["tag_counts"],
+    coverage = read_json(out / "coverage.json")
+    check_near(coverage["heights"][0]["share_read"], math.pi * radius ** 2 / 64.0, 0.01, "share")
+    check_equal(coverage["region_m"], [-4.0, -4.0, 4.0, 4.0], "region")
+    check_equal(coverage["tag_counts"],
                 {"never": 1, "intended": 2, "also_other": 0, "wrong": 0, "seldom": 0}, "tags")
     check_in("never read: 1 of 3 tags\n  lost", said, "what is said")
     before = files_in(out)
@@ -394,13 +394,13 @@ def coverage_is_of_the_tag_that_is_named(context):
     for name, words in (("first", ()), ("near", ("--tag", "near")), ("lost", ("--tag", "lost")),
                         ("set", ("--tag", "near", "--tag-set", "gain_dbi=6", "--tag-set", "beam_width_deg=40")),
                         ("old", ("--tag", "gain_dbi=6"))):
-        told = context.run_well("coverage", path, "--antenna", "gate", "--region=1.9,-0.1,2.1,0.1",
-                                "--step", "0.2", "--height", "1", *words, "--json", "--out",
-                                context.folder / "out")
-        check_equal(json.loads(told.out), read_json(context.folder / "out/coverage.json"), "--json")
-        check_equal("is now --tag-set gain_dbi=6" in told.err, name == "old", f"warning of {name}")
-        check_equal("--tag-set beam_width_deg has no effect with pattern: isotropic" in told.err, name == "set",
-                    f"warning of {name}: {told.err}")
+        result = context.run_well("coverage", path, "--antenna", "gate", "--region=1.9,-0.1,2.1,0.1",
+                                  "--step", "0.2", "--height", "1", *words, "--json", "--out",
+                                  context.folder / "out")
+        check_equal(json.loads(result.out), read_json(context.folder / "out/coverage.json"), "--json")
+        check_equal("is now --tag-set gain_dbi=6" in result.err, name == "old", f"warning of {name}")
+        check_equal("--tag-set beam_width_deg has no effect with pattern: isotropic" in result.err, name == "set",
+                    f"warning of {name}: {result.err}")
         powers[name] = float(read_csv(context.folder / "out/coverage_1.00m.csv")[0]["power_dbm"])
     check_near(powers["near"], powers["first"], 1e-6, "the first is taken")
     for name in ("lost", "set", "old"):
@@ -416,7 +416,7 @@ def without_an_antenna_it_is_the_one_whose_link_is_best(context):
         best = explained(context, path, *asked)
         check_equal((best["antenna"], best["antennas_compared"]), (nearer, 2), f"antenna for {tag} at {place}")
         named = explained(context, path, *asked, "--antenna", nearer)
-        check_equal({**best, "antennas_compared": 1}, named, f"what is told of {tag}")
+        check_equal({**best, "antennas_compared": 1}, named, f"explanation for {tag}")
     text = context.run_well("explain", path, "--tag", "near").out
     check_in("of 2 antennas the one with the best link; --antenna names another", text, "explain")
 

@@ -233,7 +233,7 @@ def complain(campaign, what, code, said, allowed=(0, 2)):
         campaign.find(what, f"exit code 0, and says {said[:300]!r}")
 
 
-def told(counter):
+def summary_of(counter):
     return ", ".join(f"{count} {name}" for name, count in sorted(counter.items()))
 
 
@@ -251,7 +251,7 @@ def killed(campaign, outcomes):
         program.kill()
         program.communicate()
         seen[outcomes.look(f"killed after {after:.3f} s")] += 1
-    return told(seen)
+    return summary_of(seen)
 
 
 def interrupted(campaign, outcomes):
@@ -278,7 +278,7 @@ def interrupted(campaign, outcomes):
             outcome = "marked as incomplete"
         seen[outcome] += 1
         outcomes.look(what, (*(("neither",) if says_so else ()), "old", "new"))
-    return told(seen)
+    return summary_of(seen)
 
 
 def is_marked(folder):
@@ -314,7 +314,7 @@ def faulty_calls(campaign, outcomes):
                 campaign.find(what, "exit code 0 without the new result")
             seen[call] += 1
             outcomes.look(what)
-    return told(seen)
+    return summary_of(seen)
 
 
 def limited(campaign, outcomes):
@@ -337,7 +337,7 @@ def limited(campaign, outcomes):
             complain(campaign, what, code, said)
             seen[name] += 1
             outcomes.look(what)
-    return told(seen)
+    return summary_of(seen)
 
 
 def nobody_reads_on(campaign, commands):
@@ -359,7 +359,7 @@ def nobody_reads_on(campaign, commands):
             complain(campaign, f"{' '.join(words)} | head", program.returncode, said,
                      (0, 2, -signal.SIGPIPE))
             seen[words[0]] += 1
-    return told(seen)
+    return summary_of(seen)
 
 
 def free_port():
@@ -414,7 +414,7 @@ def serving(campaign, commands):
         if number != signal.SIGKILL and program.returncode not in (0, 130):
             campaign.find("serve", f"{number.name}: exit code {program.returncode}: {said[:300]}")
         seen[number.name] += 1
-    return told(seen)
+    return summary_of(seen)
 
 
 KINDS = (killed, interrupted, faulty_calls, limited)

@@ -17,24 +17,24 @@ def version_says_what_was_built_of_what(context):
     number = re.search(r"project\(tagfield VERSION ([\d.]+)",
                        (context.source / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
     check_equal(text.splitlines()[0], f"tagfield {number}", "the first line")
-    told = json.loads(context.run_well("--version", "--json").out)
-    check_equal(told["version"], number, "version")
+    version = json.loads(context.run_well("--version", "--json").out)
+    check_equal(version["version"], number, "version")
     cache = (context.build / "CMakeCache.txt").read_text(encoding="utf-8")
     # Even if enabled, they are left out if their libraries are missing.
     for part, variable, made in (("ros1", "TAGFIELD_ROS1:BOOL", "lib/tagfield/rosbag.so"),
                                  ("ros2", "TAGFIELD_ROS2:BOOL", "adapters/ros2/libtagfield_ros2_topics.a")):
         asked_for = f"{variable}=ON" in cache
-        check_equal(told["parts"][part], asked_for and (context.build / made).exists(), part)
-    check_equal(told["parts"]["mqtt"], "libmosquitto_FOUND:INTERNAL=1" in cache, "mqtt")
-    for part, present in told["parts"].items():
+        check_equal(version["parts"][part], asked_for and (context.build / made).exists(), part)
+    check_equal(version["parts"]["mqtt"], "libmosquitto_FOUND:INTERNAL=1" in cache, "mqtt")
+    for part, present in version["parts"].items():
         section = text.split("without:")[0 if present else -1]
         check_in(f"  {part} ", section, "--version")
     head = run(["git", "-C", context.source, "rev-parse", "HEAD"])
-    if head.code == 0 and told["commit"] is not None:
-        check(re.fullmatch("[0-9a-f]{12,}", told["commit"]), f"commit is {told['commit']}")
-        known = run(["git", "-C", context.source, "cat-file", "-t", told["commit"]])
-        check_equal(known.out, "commit\n", f"what git says of {told['commit']}")
-        check_in(told["commit"], text, "--version")
+    if head.code == 0 and version["commit"] is not None:
+        check(re.fullmatch("[0-9a-f]{12,}", version["commit"]), f"commit is {version['commit']}")
+        known = run(["git", "-C", context.source, "cat-file", "-t", version["commit"]])
+        check_equal(known.out, "commit\n", f"what git says of {version['commit']}")
+        check_in(version["commit"], text, "--version")
 
 
 @case
@@ -112,8 +112,8 @@ def the_script_of_new_runs(context):
 
 @case
 def doctor_says_what_it_found(context):
-    told = json.loads(context.run_well("doctor", "--json").out)
-    found = {finding["key"]: finding for finding in told["findings"]}
+    report = json.loads(context.run_well("doctor", "--json").out)
+    found = {finding["key"]: finding for finding in report["findings"]}
     check(set(found) >= {"machine", "files", "ros2", "mpi", "python", "gazebo", "gz-sim", "browser", "roscore", "cbc"},
           f"keys are {sorted(found)}")
     check_in(f"{os.cpu_count()} threads", found["machine"]["what"], "machine")
@@ -160,8 +160,8 @@ def check_takes_every_kind_of_file(context):
     if (context.folder / "run.mcap").exists():
         kinds[context.folder / "run.mcap"] = "recording of ROS"
     for path, kind in kinds.items():
-        told = json.loads(context.run_well("check", "--json", path).out)
-        check_equal(told["kind"], kind, f"kind of {path}")
+        described = json.loads(context.run_well("check", "--json", path).out)
+        check_equal(described["kind"], kind, f"kind of {path}")
     text = context.run_well("check", out / "reads.csv").out
     check_in("kind: reads\n", text, "check reads.csv")
     check_in("tags: 1: ", text, "check reads.csv")

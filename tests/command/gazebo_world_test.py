@@ -40,7 +40,7 @@ def the_world_is_named_after_the_scenario(context):
 
 
 @case
-def bad_requests_are_told(context):
+def bad_requests_are_reported(context):
     scenario = context.shipped("paper_warehouse")
     for arguments, says in (
             (("--out", context.folder / "no/such/folder/x.world"), "x.world"),

@@ -31,16 +31,16 @@ def json_is_what_the_files_hold(context):
             (("bench", suite, "--no-page"), "bench.json"),
             (("sweep", sweep, "--no-page"), "results.json")):
         folder = out / f"of_{arguments[0]}"
-        told = json.loads(context.run_well(*arguments, "--json", "--out", folder).out)
-        check_equal(told, read_json(folder / file), words(arguments))
+        printed = json.loads(context.run_well(*arguments, "--json", "--out", folder).out)
+        check_equal(printed, read_json(folder / file), words(arguments))
     status = json.loads(context.run_well("sweep", "--status", out / "of_sweep", "--json").out)
     check_equal((status["runs"], status["done"], status["failed"]), (2, 2, 0), "status")
     merged = json.loads(context.run_well("sweep", "--merge", out / "of_sweep", "--json").out)
     check_equal(merged, read_json(out / "of_sweep/results.json"), "merged")
     profile = out / "profile.yaml"
-    told = json.loads(context.run_well("calibrate", run, "--tags", truth, "--out", profile, "--json").out)
-    check_equal(list(told["antennas"]), ["mobile"], "calibrated")
-    check_in(f"phase_sign: {told['antennas']['mobile']['phase_sign']}", profile.read_text(encoding="utf-8"),
+    calibrated = json.loads(context.run_well("calibrate", run, "--tags", truth, "--out", profile, "--json").out)
+    check_equal(list(calibrated["antennas"]), ["mobile"], "calibrated")
+    check_in(f"phase_sign: {calibrated['antennas']['mobile']['phase_sign']}", profile.read_text(encoding="utf-8"),
              "profile")
     for arguments in (("run", warehouse, "--record-only", "--json"), ("track", run / "reads.csv", "--poses",
                       run / "antenna_poses.csv", "--allow-outside"), ("localize", run, "--skip-missing")):
@@ -82,14 +82,14 @@ def started(context, *arguments):
 @case
 def servers_say_where_they_are(context):
     portal = context.shipped("portal")
-    with started(context, "serve", portal, "--llrp", "0") as told:
-        with urllib.request.urlopen(f"{told['http']}/api/status", timeout=20) as answer:
+    with started(context, "serve", portal, "--llrp", "0") as addresses:
+        with urllib.request.urlopen(f"{addresses['http']}/api/status", timeout=20) as answer:
             check_equal(json.load(answer)["mode"], "live", "what answers at the address")
-        check_equal([sorted(reader) for reader in told["llrp"]], [["address", "port", "reader"]], "llrp")
-        check(told["llrp"][0]["port"] > 0, f"port {told['llrp'][0]['port']}")
+        check_equal([sorted(reader) for reader in addresses["llrp"]], [["address", "port", "reader"]], "llrp")
+        check(addresses["llrp"][0]["port"] > 0, f"port {addresses['llrp'][0]['port']}")
     run = context.simulate("portal", "--no-page")
-    with started(context, "view", run) as told:
-        with urllib.request.urlopen(f"{told['http']}/api/status", timeout=20) as answer:
+    with started(context, "view", run) as addresses:
+        with urllib.request.urlopen(f"{addresses['http']}/api/status", timeout=20) as answer:
             check_equal(json.load(answer), {"mode": "recorded"}, "what answers at the address of a run")
 
 

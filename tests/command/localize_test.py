@@ -92,9 +92,9 @@ def check_hopeless(estimates, tag, why, method):
 def every_method_by_name(context):
     context.write("empty", "")
     listed = context.run_well("bench", "--list-methods").out.splitlines()
-    told = context.run_well("localize", "--help").out
+    help_text = context.run_well("localize", "--help").out
     for line in listed:
-        check_in(line, told, "localize --help")
+        check_in(line, help_text, "localize --help")
     # Each method is followed by its settings.
     names = [line.split()[0] for line in listed if not line.startswith(" ")]
     for name in names:
@@ -143,9 +143,9 @@ def reads_without_phases_are_located_by_strength(context):
         stamp, _, antenna, tag, carrier, _, rssi = row.split(",")
         rows.append(",".join((stamp, antenna, tag, carrier, rssi)))
     reads = context.write("strengths.csv", "\n".join(rows) + "\n")
-    told = context.run_well("localize", reads, "--poses", "poses.csv", "--tag-height", HEIGHT,
-                            "--out", "out")
-    check_in("method: trilateration, chosen by auto: the reads have no phases", told.out, "stdout")
+    result = context.run_well("localize", reads, "--poses", "poses.csv", "--tag-height", HEIGHT,
+                              "--out", "out")
+    check_in("method: trilateration, chosen by auto: the reads have no phases", result.out, "stdout")
     estimates = {row["tag"]: row for row in read_csv(context.folder / "out/estimates.csv")}
     check_located(estimates, TAGS, "trilateration", most=0.5)
     context.run_well("localize", reads, "--poses", "poses.csv", "--method", "sar", "--out", "out")
@@ -170,10 +170,10 @@ def a_portal_of_fixed_antennas(context):
     log = context.write("log.csv", "\n".join(rows) + "\n")
     poses = context.write("portal.csv", "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n" + "".join(
         f"0,{name},{x},{y},1.2,0,0,0,1\n" for name, (x, y) in corners.items()))
-    told = context.run_well("localize", log, "--format", "llrp_fcc", "--poses", poses,
-                            "--tag-height", "1.2", "--box", 0, 0, 4, 4, "--out", "out")
-    check_in("method: fixed, chosen by auto", told.out, "stdout")
-    check_in("the phases are not used", told.err, "stderr")
+    result = context.run_well("localize", log, "--format", "llrp_fcc", "--poses", poses,
+                              "--tag-height", "1.2", "--box", 0, 0, 4, 4, "--out", "out")
+    check_in("method: fixed, chosen by auto", result.out, "stdout")
+    check_in("the phases are not used", result.err, "stderr")
     ratios = [math.dist(position(row)[:2], tags[row["tag"]]) / float(row["expected_error_m"])
               for row in read_csv(context.folder / "out/estimates.csv")
               if row["verdict"] == "located"]
@@ -262,7 +262,7 @@ def the_error_of_poses_is_estimated(context):
     covariances = [f"{row},0.0009,0,0,0.0009,0,0.0001" for row in pose_rows(error=error)]
     for name, poses, words in (
             ("exact", pose_rows(error=error), ["--pose-sigma", "0"]),
-            ("told", pose_rows(error=error), ["--pose-sigma", "0.03", "--pose-time-constant", "2"]),
+            ("given", pose_rows(error=error), ["--pose-sigma", "0.03", "--pose-time-constant", "2"]),
             ("unknown", pose_rows(error=error), []),
             ("covariances", covariances, [])):
         _, estimates, _ = localize(context, reads, poses, "--method", "joint", *words,
@@ -273,7 +273,7 @@ def the_error_of_poses_is_estimated(context):
             math.dist(position(row), path(float(row["stamp_s"]))) ** 2 for row in corrected) /
             len(corrected))
     check_near(errors["exact"], 0.03, 0.006, "rms error of poses said to be exact")
-    for name in ("told", "unknown", "covariances"):
+    for name in ("given", "unknown", "covariances"):
         check(errors[name] < 0.5 * errors["exact"], f"{name}: rms errors are {errors}")
 
 
@@ -531,8 +531,8 @@ RAIL_TAGS = {"a1": (0.3, 0.6), "b2": (0.5, 0.6), "c3": (0.7, 0.6)}
 @case
 def a_folder_of_stops_amid_echoes(context):
     adarf_folder(context, RAIL_TAGS)
-    told = context.run_well("localize", "scan", "--format", "adarf", "--side=+y", "--out", "out")
-    check_in("method: scan", told.out, "what was chosen")
+    result = context.run_well("localize", "scan", "--format", "adarf", "--side=+y", "--out", "out")
+    check_in("method: scan", result.out, "what was chosen")
     rows = {row["tag"]: row for row in read_csv(context.folder / "out/estimates.csv")}
     for tag, (x, away) in RAIL_TAGS.items():
         if check_equal(rows[tag]["verdict"], "located", f"verdict on {tag} ({rows[tag]['reason']})"):
@@ -754,11 +754,11 @@ def a_known_world_and_how_well(context):
         return {row["tag"]: row for row in read_csv(folder / "estimates.csv") if row["verdict"] == "located"}
 
     of_run, of_tables = located("of_run", run), located("of_tables", *tables)
-    told = located("told", *tables, "--world-sigma", "0.002")
+    given = located("given", *tables, "--world-sigma", "0.002")
     check(len(of_run) >= 2, f"only {len(of_run)} of three tags are located")
-    check_equal(set(of_run), set(told), "tags that are located")
+    check_equal(set(of_run), set(given), "tags that are located")
     for tag, row in of_run.items():
-        for rows, sigma_m in ((of_tables, 0.01), (told, 0.002)):
+        for rows, sigma_m in ((of_tables, 0.01), (given, 0.002)):
             if tag not in rows:
                 continue
             for entry in ("cov_xx", "cov_yy"):

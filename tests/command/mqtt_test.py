@@ -235,7 +235,7 @@ def users_have_passwords(context):
         refused = context.run("stream", context.shipped("conveyor"), "--speed", 0, "--mqtt",
                               f"mqtt://me:wrong@{place}")
         check_in("the broker refuses", refused.err, "warnings")
-        check("wrong" not in refused.err, "the password is told")
+        check("wrong" not in refused.err, "the password is shown")
 
 
 @case

@@ -136,8 +136,8 @@ def antennas_by_pattern(context):
     check(read_json(out / "summary.json")["inventory"]["read"] < 3, "hardly any power is left")
     context.run_well("coverage", path, "--antenna", "west_*", "--step", "1", "--out",
                      context.folder / "coverage")
-    told = read_json(context.folder / "coverage/coverage.json")
-    check_equal([row["name"] for row in told["antennas"]], ["west_1", "west_2"], "antennas")
+    coverage = read_json(context.folder / "coverage/coverage.json")
+    check_equal([row["name"] for row in coverage["antennas"]], ["west_1", "west_2"], "antennas")
 
 
 @case

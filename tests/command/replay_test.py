@@ -49,7 +49,7 @@ tag_recording: run/truth/tags.csv
 
 
 @case
-def bad_recordings_are_told(context):
+def bad_recordings_are_reported(context):
     poses = "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n"
     for text, says in (("", "other.csv"), (poses + "0,fixed,1,2,3,0,0,0,1\n", "of antenna 'mobile'"),
                        (poses + "1,mobile,1,2,3,0,0,0,1\n0,mobile,1,2,3,0,0,0,1\n", "'mobile'"),

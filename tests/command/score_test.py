@@ -39,8 +39,8 @@ def program(context):
 @case
 def judges_as_run_does(context):
     folder = context.simulate(SCENARIO, "--no-page")
-    told = context.run_well("score", folder / "estimates.csv", "--run", folder, "--json")
-    ours, theirs = read_json(folder / "summary.json"), json.loads(told.out)
+    result = context.run_well("score", folder / "estimates.csv", "--run", folder, "--json")
+    ours, theirs = read_json(folder / "summary.json"), json.loads(result.out)
     check_equal(len(theirs["tags"]), 10, "tags")
     for one, other in zip(ours["tags"], theirs["tags"]):
         for key in ("id", "verdict", "truth_m", "reads", "reads_used"):
@@ -96,8 +96,8 @@ def a_command_is_a_method(context):
     # The same program after a run, evaluated by score, has the same errors.
     folder = context.simulate(SCENARIO, "--record-only", "--seed", "1")
     check_equal(run([*mine.split(), folder]).code, 0, "the program by itself")
-    told = json.loads(context.run_well("score", folder / "estimates.csv", "--run", folder, "--json").out)
-    alone = {tag["id"]: tag["estimate_m"] for tag in told["tags"]}
+    scores = json.loads(context.run_well("score", folder / "estimates.csv", "--run", folder, "--json").out)
+    alone = {tag["id"]: tag["estimate_m"] for tag in scores["tags"]}
     for row in read_csv(out / "tags.csv"):
         if row["name"] == "strongest" and row["seed"] == "1" and row["verdict"] == "located":
             check_near(float(row["x_m"]), alone[row["tag"]][0], 1e-5, f"{row['tag']}: x")
@@ -120,7 +120,7 @@ def suites_start_no_programs(context):
 
 
 @case
-def failures_are_told_in_a_line(context):
+def failures_are_reported_in_one_line(context):
     path = suite(context, "[hyperbola]")
     for command, said in (("echo first; echo 'no licence'; exit 3 #", "ended with code 3: no licence"),
                           ("true", "wrote no estimates.csv"),

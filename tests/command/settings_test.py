@@ -125,10 +125,10 @@ def no_setting_is_without_effect_in_silence(context):
             for key, value in values.items():
                 if (name, key, value) in AS_BEFORE:
                     continue
-                read, told = outcome((*beside, f"{of}.{key}={value}"))
+                read, warnings = outcome((*beside, f"{of}.{key}={value}"))
                 if read is not None and read != usual:
                     effective.add((of, key))
-                elif read is not None and not set(told.splitlines()) - set(said.splitlines()):
+                elif read is not None and not set(warnings.splitlines()) - set(said.splitlines()):
                     silent.append(f"{name}: {of}.{key}={value}")
     check_equal(silent, [], "settings that changed nothing, without a word")
     # A key that is always rejected or warned about would be useless.

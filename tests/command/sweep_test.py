@@ -118,11 +118,11 @@ def numbers_are_those_of_a_bench(context):
 
 
 @case
-def what_is_odd_in_a_condition_is_told_once(context):
+def what_is_odd_in_a_condition_is_warned_of_once(context):
     conditions = "conditions:\n  - {name: exact, set: {pose.source: 'true', pose.wheel_noise: 0.1}}\n"
-    told = context.run_well("sweep", suite_of(context, conditions), "--out", "out")
-    odd = [line for line in told.err.splitlines() if "pose.wheel_noise has no effect with source: true" in line]
-    check_equal(len(odd), 1, f"warnings: {told.err}")
+    result = context.run_well("sweep", suite_of(context, conditions), "--out", "out")
+    odd = [line for line in result.err.splitlines() if "pose.wheel_noise has no effect with source: true" in line]
+    check_equal(len(odd), 1, f"warnings: {result.err}")
     check_in("condition 'exact", odd[0], "what is odd")
 
 
@@ -308,11 +308,12 @@ def other_suites_are_refused(context):
         check_in("holds the sweep of another suite, or of one whose files were changed", complaint, what)
     suite_of(context)
     source = json.loads((folder / "sweep.json").read_text(encoding="utf-8"))
-    told = json.loads(context.run_well("--version", "--json").out)
-    program = told["version"] + (f"+{told['commit']}" if told["commit"] else "") + (".changed" if told["changed"] else "")
+    build = json.loads(context.run_well("--version", "--json").out)
+    program = (build["version"] + (f"+{build['commit']}" if build["commit"] else "") +
+               (".changed" if build["changed"] else ""))
     check_equal(source["tagfield"], program, "the program that a sweep is of")
-    if told["commit"]:  # Another build of the same version may get other results.
-        context.write("out/sweep.json", json.dumps(source | {"tagfield": f"{told['version']}+000000000000"}))
+    if build["commit"]:  # Another build of the same version may get other results.
+        context.write("out/sweep.json", json.dumps(source | {"tagfield": f"{build['version']}+000000000000"}))
         complaint = line_of(context.run("sweep", "--merge", folder), "another commit")
         check_in("+000000000000, and this is ", complaint, "another commit")
     context.write("out/sweep.json", json.dumps(source | {"tagfield": "0.0.9"}))
@@ -522,15 +523,15 @@ echo 17
 
 
 @case
-def progress_is_told_over_all_shards(context):
+def progress_is_reported_over_all_shards(context):
     suite = suite_of(context)
     context.run_well("sweep", suite, "--shard", "1/3", "--out", "out")
-    told = context.run_well("sweep", "--status", "out").out
-    check_in("suite: 6 of 18 runs (33.3 %), 0 failed, in 1 logs", told, "--status")
-    check_in("to go", told, "--status")
-    told = context.run_well("sweep", "--help").out
+    status = context.run_well("sweep", "--status", "out").out
+    check_in("suite: 6 of 18 runs (33.3 %), 0 failed, in 1 logs", status, "--status")
+    check_in("to go", status, "--status")
+    help_text = context.run_well("sweep", "--help").out
     for word in ("--shard", "--merge", "--status", "--again", "latin_hypercube", "docs/sweep.md"):
-        check_in(word, told, "sweep --help")
+        check_in(word, help_text, "sweep --help")
 
 
 if __name__ == "__main__":

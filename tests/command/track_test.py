@@ -21,12 +21,12 @@ def a_scenario_is_tracked_and_judged(context):
     folder = track(context, context.shipped("conveyor"))
     for name in (*WRITTEN, "reads.csv", "antenna_poses.csv", "truth/tags.csv"):
         check(name in files_in(folder), f"there is no {name}")
-    told = read_json(folder / "tracks.json")
-    check_equal((told["tracked"], told["ambiguous"], told["not_tracked"]), (12, 0, 0), "verdicts")
-    check(told["along_m"]["mean"] < 0.02, f"error along the track {told['along_m']}")
-    for order in told["orders"]:
+    summary = read_json(folder / "tracks.json")
+    check_equal((summary["tracked"], summary["ambiguous"], summary["not_tracked"]), (12, 0, 0), "verdicts")
+    check(summary["along_m"]["mean"] < 0.02, f"error along the track {summary['along_m']}")
+    for order in summary["orders"]:
         check_equal(order["right"], order["pairs"], f"order at {order['passed']}")
-    check_equal([order["passed"] for order in told["orders"]], ["line", "gate_1", "gate_2"],
+    check_equal([order["passed"] for order in summary["orders"]], ["line", "gate_1", "gate_2"],
                 "orders")
 
 
@@ -60,11 +60,11 @@ def reads_of_a_run_give_the_same_tracks(context):
     for a, b in zip(read_csv(first / "order.csv"), read_csv(again / "order.csv")):
         check_equal((a["passed"], a["tag"]), (b["passed"], b["tag"]), "order")
         check_near(float(a["stamp_s"]), float(b["stamp_s"]), 1e-5, f"stamp of {a['tag']}")
-    told = track(context, first / "reads.csv", "--poses", first / "antenna_poses.csv", "--lane",
-                 0, 0, 0, 0.1, "--line", 0, 0, 90, "--tag-height", 0.8, name="told")
-    check_equal((told / "tracks.csv").read_bytes(), (again / "tracks.csv").read_bytes(),
+    by_options = track(context, first / "reads.csv", "--poses", first / "antenna_poses.csv", "--lane",
+                       0, 0, 0, 0.1, "--line", 0, 0, 90, "--tag-height", 0.8, name="by_options")
+    check_equal((by_options / "tracks.csv").read_bytes(), (again / "tracks.csv").read_bytes(),
                 "tracks.csv by options")
-    judged = read_json(told / "tracks.json")
+    judged = read_json(by_options / "tracks.json")
     check(judged["along_m"]["mean"] < 0.02, "the truth beside the reads was not used to judge")
 
 
@@ -108,9 +108,9 @@ def threads_and_seeds(context):
     one = track(context, scenario, "--seeds", 2, "--threads", 1, name="one")
     two = track(context, scenario, "--seeds", 2, "--threads", 2, name="two")
     check_equal(files_in(one), files_in(two), "files by one and two threads")
-    told = read_json(one / "tracks.json")
-    check_equal(told["seeds"], [1, 2], "seeds")
-    check_equal(told["orders"][0]["pairs"], 22, "pairs of neighbours")
+    summary = read_json(one / "tracks.json")
+    check_equal(summary["seeds"], [1, 2], "seeds")
+    check_equal(summary["orders"][0]["pairs"], 22, "pairs of neighbours")
 
 
 @case
@@ -161,7 +161,7 @@ def a_run_of_the_conveyor_opens_with_what_was_measured(context):
 
 
 @case
-def bad_input_is_told_in_one_line(context):
+def bad_input_gives_one_line(context):
     reads = context.write("reads.csv", "stamp_s,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n"
                                        "1,a,t,865.7e6,1,-50\n")
     poses = context.write("poses.csv", "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n"

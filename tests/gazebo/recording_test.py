@@ -17,8 +17,8 @@ def recording(*elements):
 
 def located(context, recorded, out):
     """Folder with the results of `tagfield localize` from a recording."""
-    told = context.run_well("localize", recorded, "--method", "hyperbola", "--out", out).err
-    check("no transform joins" not in told, f"frames of {recorded}: {told}")
+    warnings = context.run_well("localize", recorded, "--method", "hyperbola", "--out", out).err
+    check("no transform joins" not in warnings, f"frames of {recorded}: {warnings}")
     return context.folder / out
 
 
@@ -134,7 +134,7 @@ def what_is_wrong_is_one_error_and_the_world_goes_on(context):
     check_in("/nowhere/run.mcap", "".join(errors), "errors")
     check_in("unknown element <bag>, expected <mcap>", "".join(errors), "errors")
     context.run_well("localize", running.bag, "--method", "hyperbola", "--out", "out")
-    check(len(read_csv(context.folder / "out/reads.csv")) > 10, "no reads are told")
+    check(len(read_csv(context.folder / "out/reads.csv")) > 10, "no reads are written")
 
 
 if __name__ == "__main__":

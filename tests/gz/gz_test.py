@@ -110,7 +110,7 @@ def a_wrong_parameter_is_one_error_and_the_rest_goes_on(context):
     check(not [line for line in found if ".h:" in line and "[Err]" in line],
           f"a place in our sources stands in one of {found}")
     check("<mcap>" not in said and "<ros2>" not in said, "its own elements are taken for materials")
-    check(not (context.folder / "run.mcap").exists(), "a wrong domain was told, and it recorded")
+    check(not (context.folder / "run.mcap").exists(), "a wrong domain was given, and it recorded")
     check("wall " in said, "the server did not live")
 
 
@@ -160,7 +160,7 @@ def time_goes_back_and_reads_go_on(context):
 
 
 @case
-def gazebos_own_topics_and_its_window_are_told(context):
+def gazebos_own_topics_and_its_window_get_messages(context):
     """Late subscribers receive the messages, too, also of tags that do not move."""
     said = serve(context, world(antenna("gate", 0, 0, 1, "<range>5</range>"), tag("near", 2, 0, 1),
                                 tag("far", 20, 0, 1)),
@@ -253,7 +253,7 @@ def ros_2_hears_the_reads_without_a_bridge(context):
     for line in reads:
         check("first".encode().hex() in line["cdr"], f"no read of the tag in {line['cdr'][:80]}")
     check(not [line for line in heard if line["kind"] == "message" and "clock" in line["topic"]],
-          "/clock is told, which a bridge does")
+          "/clock is sent, which a bridge does")
 
 
 @case

@@ -140,10 +140,10 @@ def reads_are_those_of_the_headless_run(context):
         connection.close()
     check_between(len(expected), 500, 5000, "number of reads")
     for row, line in zip(expected, lines):
-        told = (line["epc"], line["antennaName"], line["peakRssiCdbm"], line["timestamp"])
+        streamed = (line["epc"], line["antennaName"], line["peakRssiCdbm"], line["timestamp"])
         of_run = (row["tag"], row["antenna"], round(float(row["rssi_dbm"]) * 100),
                   f"2020-01-01T00:00:{float(row['stamp_s']):012.9f}Z")
-        if not check_equal(told, of_run, "read"):
+        if not check_equal(streamed, of_run, "read"):
             break
         check_near(line["phaseAngle"], float(row["phase_rad"]) * 57.29577951308232, 1e-4, "phase")
 
@@ -157,7 +157,7 @@ def streams_are_of_what_is_asked_for(context):
 
 
 @case
-def time_goes_as_it_is_told(context):
+def time_goes_as_requested(context):
     with served(context, context.shipped(PORTAL), "--paused") as server:
         check_equal(server.get("/api/status")["time"], 0, "time at first")
         time.sleep(0.3)
@@ -207,10 +207,10 @@ def the_example_in_javascript_prints_reads(context):
     if shutil.which("node") is None:
         raise Skip("node is missing (scripts/setup --tests installs it)")
     with served(context, context.shipped(PORTAL)) as server:
-        told = run(["node", context.source / "examples/08_live_client/reads.mjs",
-                    server.addresses["http"], "tag_01", "30"])
-        check_equal(told.code, 0, f"exit code of the example ({told.err})")
-        lines = told.out.splitlines()
+        result = run(["node", context.source / "examples/08_live_client/reads.mjs",
+                      server.addresses["http"], "tag_01", "30"])
+        check_equal(result.code, 0, f"exit code of the example ({result.err})")
+        lines = result.out.splitlines()
         check_equal(len(lines), 30, "lines")
         check(all("dBm" in line for line in lines), f"lines without RSSI: {lines[0]}")
         moved = [float(line.split("moved ")[1].split(" mm")[0]) for line in lines if "moved" in line]
@@ -317,7 +317,7 @@ def lasers_end_where_things_stand(context):
 
 
 @case
-def what_others_change_is_told_while_paused(context):
+def what_others_change_is_reported_while_paused(context):
     with served(context, context.shipped(PORTAL), "--paused") as server:
         client = websocket.create_connection(f"ws://127.0.0.1:{server.port}/api/live", timeout=20)
         first = json.loads(client.recv())
@@ -471,7 +471,7 @@ def who_falls_behind_loses_its_own_oldest(context):
             pass
         slow.close()
         dropped = sum(line.get("dropped", 0) for line in lines)
-        check(dropped > 1000, f"it is told of {dropped} lost reads")
+        check(dropped > 1000, f"it reports {dropped} lost reads")
         now = server.get("/api/status")["time"]
         minute = f"2020-01-01T00:{int((now - 5) // 60):02}"
         last = lines[-1].get("timestamp", "")

@@ -381,8 +381,8 @@ def a_client_keeps_to_itself(context):
         # A second client is rejected, as there is one already.
         address = ("127.0.0.1", first.socket.getpeername()[1])
         with socket.create_connection(address, timeout=10) as other:
-            told = other.recv(1000)
-            check_equal(told[-2:], b"\0\2", "status of the second's attempt")
+            answer = other.recv(1000)
+            check_equal(answer[-2:], b"\0\2", "status of the second's attempt")
             check_equal(other.recv(1), b"", "what comes after")
         # Reports are held while no client is connected, if configured so.
         first.ask(3, b"\0" + parameter(226, b"\x80"))
@@ -400,7 +400,7 @@ def a_client_keeps_to_itself(context):
 
 
 @case
-def keepalives_and_antennas_are_told(context):
+def keepalives_and_antennas_are_reported(context):
     with started(context, "--speed", "10") as server:
         client = connected(server)
         client.ask(3, b"\0" + parameter(220, struct.pack("!BI", 1, 200)))

@@ -299,8 +299,8 @@ def a_robots_map_and_scans_are_in_the_file(context):
     width, height, cells = pgm_cells(folder / "map.pgm")
     check_equal((grid["info"]["width"], grid["info"]["height"]), (width, height), "cells of the map")
     # The file distinguishes three kinds of cells.
-    told = [-1 if cell < 0 else 100 if cell >= 65 else 0 if cell < 20 else -1 for cell in grid["data"]]
-    check(told == cells, "the cells are not those of map.pgm")
+    kinds = [-1 if cell < 0 else 100 if cell >= 65 else 0 if cell < 20 else -1 for cell in grid["data"]]
+    check(kinds == cells, "the cells are not those of map.pgm")
     check(cells.count(0) > 1000 and cells.count(100) > 100, "the map is empty")
     text = (folder / "map.yaml").read_text(encoding="utf-8")
     origin = grid["info"]["origin"]["position"]
@@ -344,10 +344,10 @@ def tags_are_located_from_the_file_as_from_the_tables(context):
 def tags_are_tracked_from_the_file_as_from_the_tables(context):
     scenario = context.shipped("conveyor")
     run_folder = context.simulate("conveyor", "--record-only", "--mcap", "run.mcap")
-    told = ["--scenario", scenario, "--no-page"]
-    context.run_well("track", run_folder, *told, "--out", "tables")
-    context.run_well("track", "run.mcap", *told, "--out", "file")
-    context.run_well("track", "run.mcap", *told, "--part-reads", 300, "--out", "parts")
+    options = ["--scenario", scenario, "--no-page"]
+    context.run_well("track", run_folder, *options, "--out", "tables")
+    context.run_well("track", "run.mcap", *options, "--out", "file")
+    context.run_well("track", "run.mcap", *options, "--part-reads", 300, "--out", "parts")
     tables, file, parts = (context.folder / name for name in ("tables", "file", "parts"))
     check_equal((parts / "tracks.csv").read_bytes(), (file / "tracks.csv").read_bytes(), "tracks in parts")
     check_equal((file / "verdicts.csv").read_bytes(), (tables / "verdicts.csv").read_bytes(), "verdicts")
@@ -403,7 +403,7 @@ def the_page_shows_the_file_as_the_runs_folder(context):
 
 
 @case
-def broken_files_are_told_of(context):
+def broken_files_are_reported(context):
     """Complete messages are used, with a warning; no crashes, and no partial results."""
     context.simulate("two_antennas", "--no-page", "--mcap", context.folder / "run.mcap")
     whole = (context.folder / "run.mcap").read_bytes()

@@ -80,8 +80,8 @@ def located(context, recording, out, warnings=0):
     scenario = context.shipped("two_antennas")
     result = context.run_well("localize", recording, "--scenario", scenario, "--method", "hyperbola",
                               "--out", out)
-    told = [line for line in result.err.splitlines() if "warning" in line]
-    check_equal(len(told), warnings, f"warnings of {recording}: {told}")
+    warning_lines = [line for line in result.err.splitlines() if "warning" in line]
+    check_equal(len(warning_lines), warnings, f"warnings of {recording}: {warning_lines}")
     return context.folder / out
 
 
@@ -130,7 +130,7 @@ def names_of_results_are_those_of_recordings(context):
 
 
 @case
-def broken_ones_are_told_of(context):
+def broken_ones_are_reported(context):
     _, topics, messages = recorded(context)
     path = write_database(context.folder / "run.db3", topics, messages)
     whole = path.read_bytes()

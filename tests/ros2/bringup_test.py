@@ -158,7 +158,7 @@ def launch_files_hand_on_what_has_no_default(context):
 
 @case
 def launch_files_give_options_that_the_program_has(context):
-    told = context.run("run", "--help").out
+    help_text = context.run("run", "--help").out
     for path in launch_files(context):
         things = launched(path)
         declared = {thing.words[0] for thing in things if thing.kind == "DeclareLaunchArgument"}
@@ -166,7 +166,7 @@ def launch_files_give_options_that_the_program_has(context):
             if thing.kind == "ExecuteProcess":
                 for word in thing.options["cmd"]:
                     if isinstance(word, str) and word.startswith("--"):
-                        check_in(word + " ", told, f"{path.name}: options")
+                        check_in(word + " ", help_text, f"{path.name}: options")
             if thing.kind == "LaunchConfiguration":
                 check_in(thing.words[0], sorted(declared), f"{path.name}: arguments")
 
@@ -193,11 +193,11 @@ def frames_and_topics_are_the_programs(context):
               "odom_frame_id": odom, "local_frame": odom, "map_frame": "map", "global_frame_id": "map",
               "frame_id": "map"}
     topics = {"scan_topic": "/scan", "topic": "/scan", "odom_topic": "/odom", "map_topic": "/map"}
-    told = (context.source / "docs/ros2.md").read_text(encoding="utf-8")
+    docs = (context.source / "docs/ros2.md").read_text(encoding="utf-8")
     robot = (context.source / "adapters/ros2/ros2_robot.cc").read_text(encoding="utf-8")
     for topic in ("/scan", "/odom", "/cmd_vel"):
         check_in(f'"{topic}"', robot, "topics of the robot")
-        check_in(f"| `{topic}` |", told, "topics in the docs")
+        check_in(f"| `{topic}` |", docs, "topics in the docs")
     count = 0
 
     def look(values, path):
@@ -255,14 +255,14 @@ def rviz_shows_topics_that_there_are(context):
     if yaml is None:
         raise Skip("python3-yaml is not there")
     of_others = {"/global_costmap/costmap", "/plan", "/initialpose", "/goal_pose"}
-    told = (context.source / "docs/ros2.md").read_text(encoding="utf-8")
+    docs = (context.source / "docs/ros2.md").read_text(encoding="utf-8")
     for name in ("tagfield.rviz", "navigation.rviz"):
         text = (bringup(context) / "rviz" / name).read_text(encoding="utf-8")
         config = yaml.safe_load(text)["Visualization Manager"]
         check_equal(config["Global Options"]["Fixed Frame"], "map", f"{name}: fixed frame")
         for thing in (*config["Displays"], *config["Tools"]):
             topic = thing.get("Topic", {}).get("Value")
-            check(topic is None or topic in of_others or f"`{topic}`" in told, f"{name}: {topic}")
+            check(topic is None or topic in of_others or f"`{topic}`" in docs, f"{name}: {topic}")
 
 
 if __name__ == "__main__":

@@ -93,7 +93,7 @@ class FastType : public fast::TopicDataType {
   std::uint32_t max_bytes_;
 };
 
-/// Is told of participants and writers that are found.
+/// Is notified of participants and writers that are found.
 class FastDiscovery : public fast::DomainParticipantListener {
  public:
   virtual void found_participant(const std::string& user_data) = 0;

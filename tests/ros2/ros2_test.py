@@ -190,10 +190,10 @@ def listeners_without_multicast_are_found_on_this_machine(context):
         lines = heard(context, [READS], f"{context.shipped('two_antennas')} --speed 15 --set duration_s=15",
                       domain=f"{DOMAIN}:local", variables=variables)
         got = [read for cdr in messages(lines, "rt/rfid/reads") for read in tag_reads(cdr)]
-        told = len(read_csv(context.folder / "out/reads.csv"))
+        total = len(read_csv(context.folder / "out/reads.csv"))
         # If only the listener searches on this machine, it is discovered at its next announcement.
-        check(len(got) == told if variables else 0 < len(got) <= told,
-              f"{len(got)} of {told} reads with '{variables}'")
+        check(len(got) == total if variables else 0 < len(got) <= total,
+              f"{len(got)} of {total} reads with '{variables}'")
 
 
 @case
@@ -309,25 +309,25 @@ def a_robot_is_driven_from_another_dds(context):
     check_equal(done.returncode, 0, f"exit code ({said})")
     lines = [json.loads(line) for line in
              (context.folder / "heard.txt").read_text(encoding="utf-8").splitlines()]
-    told = [odometry(cdr) for cdr in messages(lines, "rt/odom")]
-    if not check(len(told) > 300, f"{len(told)} messages of odometry"):
+    rows = [odometry(cdr) for cdr in messages(lines, "rt/odom")]
+    if not check(len(rows) > 300, f"{len(rows)} messages of odometry"):
         return
-    check_equal(told[0][1:4], (0.0, 0.0, 0.0), "where it starts")
-    check(1.2 < told[-1][1] < 2.6, f"it drove {told[-1][1]} m, expected about 4 s at 0.5 m/s")
-    check(abs(told[-1][2]) < 0.1, f"it strayed by {told[-1][2]} m")
+    check_equal(rows[0][1:4], (0.0, 0.0, 0.0), "where it starts")
+    check(1.2 < rows[-1][1] < 2.6, f"it drove {rows[-1][1]} m, expected about 4 s at 0.5 m/s")
+    check(abs(rows[-1][2]) < 0.1, f"it strayed by {rows[-1][2]} m")
     # Wheel noise over 20 ms at 0.5 m/s is 0.05 m/s (navigation.odometry, alpha3): a bound of six sigma.
-    check(0.4 < max(row[3] for row in told) < 0.8, "greatest speed")
-    check_equal(told[-1][3], 0.0, "speed once nobody drives any more")
-    starts = sum(before[3] == 0.0 != row[3] for before, row in zip(told, told[1:]))
+    check(0.4 < max(row[3] for row in rows) < 0.8, "greatest speed")
+    check_equal(rows[-1][3], 0.0, "speed once nobody drives any more")
+    starts = sum(before[3] == 0.0 != row[3] for before, row in zip(rows, rows[1:]))
     check_equal(starts, 2, "times that it drove off: commands without stamps, and with")
     # The integral of the odometry's speed is the distance; its variance is stated.
-    check(abs(sum(row[3] * (row[0] - before[0]) for before, row in zip(told, told[1:])) - told[-1][1]) < 0.02,
+    check(abs(sum(row[3] * (row[0] - before[0]) for before, row in zip(rows, rows[1:])) - rows[-1][1]) < 0.02,
           "the speeds do not add up to the distance")
-    check_equal(told[0][4], 0.0, "variance of x where it starts")
+    check_equal(rows[0][4], 0.0, "variance of x where it starts")
     # alpha3²·d = 1e-4·d along the path, for some 2 m.
-    check(0.7 < told[-1][4] / (1e-4 * told[-1][1]) < 1.5, f"variance of x {told[-1][4]} after {told[-1][1]} m")
+    check(0.7 < rows[-1][4] / (1e-4 * rows[-1][1]) < 1.5, f"variance of x {rows[-1][4]} after {rows[-1][1]} m")
     truth = [row for row in read_csv(context.folder / "out/truth/robot_poses.csv")]
-    check(abs(float(truth[-1]["x_m"]) - told[-1][1]) < 0.1, "the odometry is not near the truth")
+    check(abs(float(truth[-1]["x_m"]) - rows[-1][1]) < 0.1, "the odometry is not near the truth")
     scans = messages(lines, "rt/scan")
     check(len(scans) > 100, f"{len(scans)} scans")
     # A few scans may have a time missing from the clock topic, which is best effort.
@@ -341,8 +341,8 @@ def a_robot_is_driven_from_another_dds(context):
     check_equal(len(ranges), 720, "beams")
     check_equal([round(limit, 6) for limit in limits[5:]], [0.3, 30.0], "nearest and farthest range")
     check(any(limits[5] <= value <= limits[6] for value in ranges), "no beam met anything")
-    told_frames = {frame[:2] for cdr in messages(lines, "rt/tf") for frame in frames(cdr)}
-    check_equal(told_frames, {("odom", "base_link"), ("base_link", "mast")}, "frames")
+    frame_pairs = {frame[:2] for cdr in messages(lines, "rt/tf") for frame in frames(cdr)}
+    check_equal(frame_pairs, {("odom", "base_link"), ("base_link", "mast")}, "frames")
     # Topics are uncompressed in the file's summary section.
     recorded = (context.folder / "run.mcap").read_bytes()
     for topic in (b"/odom", b"/scan", b"/tf", b"/tf_static", b"/rfid/reads"):

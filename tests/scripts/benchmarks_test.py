@@ -44,12 +44,12 @@ def curves_take_what_was_measured():
 def the_page_of_a_program(folder):
     subprocess.run([SOURCE / "benchmarks/run_all.py", "--quick", "--only", "files", "--bin", PROGRAMS,
                     "--out", folder], check=True, stdout=subprocess.DEVNULL)
-    told = json.loads((folder / "figures.json").read_text(encoding="utf-8"))
-    check(set(told["figures"]) == {"write_reads", "read_reads"}, f"{told}")
-    check(all(ratio > 0.0 for ratio in told["ratios"].values()), f"{told}")
+    measured = json.loads((folder / "figures.json").read_text(encoding="utf-8"))
+    check(set(measured["figures"]) == {"write_reads", "read_reads"}, f"{measured}")
+    check(all(ratio > 0.0 for ratio in measured["ratios"].values()), f"{measured}")
     check("write_reads" in (folder / "index.html").read_text(encoding="utf-8"), "the page")
     released = json.loads(run_all.RELEASE.read_text(encoding="utf-8"))
-    check(set(told["ratios"]) <= set(released), "figures that the last release does not have")
+    check(set(measured["ratios"]) <= set(released), "figures that the last release does not have")
     slower = {name: 2.0 * ratio for name, ratio in released.items()}
     lines = run_all.compared(slower)
     check(sum("slower  × 2.00" in line for line in lines) == len(released), f"{lines[:3]}")
