@@ -190,7 +190,7 @@ class Planner {
     return stops[stops.size() / 2].p_W;
   }
 
-  void told(double share) const {
+  void report(double share) const {
     if (request_.stop != nullptr && *request_.stop) throw Error("plan: interrupted");
     if (request_.on_progress) request_.on_progress(share);
   }
@@ -207,7 +207,7 @@ class Planner {
       if (!choices_.empty() && choice.size() <= choices_.back().size()) continue;
       choices_.push_back(choice);
       plan.layouts.push_back(layout_with(choice));
-      told(0.7 * static_cast<double>(count) / static_cast<double>(most));
+      report(0.7 * static_cast<double>(count) / static_cast<double>(most));
     }
   }
 
@@ -275,7 +275,7 @@ class Planner {
       const PlannedLayout layout = layout_with(choice);
       if (layout.share < share || layout.cost >= plan.layouts[plan.chosen].cost) return;
       take(choice, layout, plan);
-      told(0.7);
+      report(0.7);
     }
   }
 
@@ -359,7 +359,7 @@ class Planner {
       plan.sensitivity.push_back(
           {fmt::format("{} fails", plan.layouts[plan.chosen].antennas[i].name),
            forecast_.read(rest, 0.0)});
-      told(0.7 + 0.3 * static_cast<double>(i + 1) / static_cast<double>(choice.size()));
+      report(0.7 + 0.3 * static_cast<double>(i + 1) / static_cast<double>(choice.size()));
     }
   }
 

@@ -197,8 +197,9 @@ class Builder {
           option.reads.push_back({at, static_cast<float>(reads[place])});
         } else {
           const double spread = expected_spread(model, reads[place], visited);
-          option.told.push_back(told_by(range, reads[place], spread, p_WA, p_WT));
-          option.told.back().element = at;
+          option.information.push_back(
+              position_information(range, reads[place], spread, p_WA, p_WT));
+          option.information.back().element = at;
         }
       }
     }

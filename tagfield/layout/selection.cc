@@ -73,9 +73,9 @@ std::vector<double> met_by(const SelectionProblem& problem, const OptionSet& cho
   return met;
 }
 
-double error_bound_m(const std::vector<Told>& told) {
+double error_bound_m(const std::vector<PositionInformation>& information) {
   InformationSum sum;
-  for (const Told& one : told) sum = sum.with(one);
+  for (const PositionInformation& one : information) sum = sum.with(one);
   return sum.error_m();
 }
 

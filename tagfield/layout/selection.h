@@ -25,7 +25,7 @@ struct ReadsOf {
 };
 
 /// An option's contribution to the Fisher information about the position x, y of an element [1/m²].
-struct Told {
+struct PositionInformation {
   std::uint32_t element = 0;
   float xx = 0.0F;
   float xy = 0.0F;
@@ -41,8 +41,8 @@ struct SelectionOption {
   /// The same for elements of other zones, where reading them is a cross read: links that count
   /// against the option need not have the margin of those that count for it.
   std::vector<Miss> crossings;
-  std::vector<ReadsOf> reads{};  ///< Also sorted; used for Worth::kReads.
-  std::vector<Told> told{};      ///< Also sorted; used for Worth::kPlace.
+  std::vector<ReadsOf> reads{};                    ///< Also sorted; used for Worth::kReads.
+  std::vector<PositionInformation> information{};  ///< Also sorted; used for Worth::kPlace.
 };
 
 inline constexpr std::size_t kNoZone = std::numeric_limits<std::size_t>::max();
@@ -96,9 +96,9 @@ std::vector<double> met_by(const SelectionProblem& problem, const OptionSet& cho
 /// Least number of antennas to locate a tag: two distances leave two possible positions.
 inline constexpr std::size_t kFewestForPlace = 3;
 
-/// √tr (Σ told)⁻¹ [m]; infinity if there is no information in some direction, or from too few
-/// antennas.
-double error_bound_m(const std::vector<Told>& told);
+/// √tr (Σ information)⁻¹ [m]; infinity if there is no information in some direction, or from too
+/// few antennas.
+double error_bound_m(const std::vector<PositionInformation>& information);
 
 /// Number of readers that the choice needs: enough ports for the antennas of each zone.
 std::size_t readers_of(const SelectionProblem& problem, const OptionSet& choice);

@@ -78,9 +78,9 @@ class LiveWorld::Impl {
   void check_name(const AntennaSpec& antenna) const;
   int port_of(const AntennaSpec& antenna);
   std::vector<LiveAntenna*> in_turn(const std::string& reader);
-  AntennaSpec as_told(const LiveAntenna& antenna, std::vector<std::string>& warnings) const;
+  AntennaSpec with_duty(const LiveAntenna& antenna, std::vector<std::string>& warnings) const;
   void apply_duty(LiveAntenna& antenna);
-  void switch_on(LiveAntenna& antenna, const AntennaSpec& told);
+  void switch_on(LiveAntenna& antenna, const AntennaSpec& spec);
   void switch_off(LiveAntenna& antenna);
   [[nodiscard]] Scenario scenario_on_air() const;
 
@@ -178,12 +178,12 @@ void LiveWorld::Impl::require_reader(const std::string& reader) const {
 }
 
 /// The antenna with its reader's duty applied.
-AntennaSpec LiveWorld::Impl::as_told(const LiveAntenna& antenna,
-                                     std::vector<std::string>& warnings) const {
-  AntennaSpec told = antenna.spec;
-  const auto duty = duties.find(told.parameters.reader);
-  if (duty != duties.end()) told.parameters = on_duty(told.parameters, duty->second, warnings);
-  return told;
+AntennaSpec LiveWorld::Impl::with_duty(const LiveAntenna& antenna,
+                                       std::vector<std::string>& warnings) const {
+  AntennaSpec spec = antenna.spec;
+  const auto duty = duties.find(spec.parameters.reader);
+  if (duty != duties.end()) spec.parameters = on_duty(spec.parameters, duty->second, warnings);
+  return spec;
 }
 
 /// Switches the antenna according to its reader's duty and its cable.
@@ -196,14 +196,14 @@ void LiveWorld::Impl::apply_duty(LiveAntenna& antenna) {
                                             return one.antenna == antenna.spec.parameters.name;
                                           });
   std::vector<std::string> reported_before;
-  if (is_asked && !antenna.is_faulty) switch_on(antenna, as_told(antenna, reported_before));
+  if (is_asked && !antenna.is_faulty) switch_on(antenna, with_duty(antenna, reported_before));
 }
 
-void LiveWorld::Impl::switch_on(LiveAntenna& antenna, const AntennaSpec& told) {
-  simulation.add_antenna(told);
+void LiveWorld::Impl::switch_on(LiveAntenna& antenna, const AntennaSpec& spec) {
+  simulation.add_antenna(spec);
   antenna.is_on = true;
   // Its inventory begins now, not at its next update.
-  if (takes_inventory(told.parameters)) simulation.update_antenna(told.parameters.name);
+  if (takes_inventory(spec.parameters)) simulation.update_antenna(spec.parameters.name);
 }
 
 void LiveWorld::Impl::switch_off(LiveAntenna& antenna) {
@@ -244,7 +244,7 @@ Scenario LiveWorld::Impl::scenario_on_air() const {
   now.antennas.clear();
   std::vector<std::string> reported_before;
   for (const LiveAntenna& antenna : antennas) {
-    if (antenna.is_on) now.antennas.push_back(as_told(antenna, reported_before));
+    if (antenna.is_on) now.antennas.push_back(with_duty(antenna, reported_before));
   }
   return now;
 }
@@ -415,7 +415,6 @@ std::vector<std::string> LiveWorld::readers() const {
 std::vector<std::string> LiveWorld::set_duty(const std::string& reader, const ReaderDuty& duty) {
   impl_->require_reader(reader);
   std::vector<std::string> warnings;
-  std::vector<AntennaSpec> told;
   for (const AntennaDuty& one : duty.antennas) {
     const LiveAntenna& antenna = impl_->antenna_named(one.antenna);
     if (antenna.spec.parameters.reader != reader) {

@@ -45,7 +45,7 @@ void apply_inventory(const ReaderDuty& duty, Gen2Reader& gen2) {
 AntennaParameters on_duty(const AntennaParameters& antenna, const ReaderDuty& duty,
                           std::vector<std::string>& warnings) {
   const AntennaDuty& own = duty_of(antenna.name, duty);
-  AntennaParameters told = antenna;
+  AntennaParameters changed = antenna;
   const RadioModel* const mounted = physical(antenna);
   const bool asks = own.transmit_power_dbm || duty.plan || asks_for_inventory(duty);
   if (mounted == nullptr) {
@@ -54,7 +54,7 @@ AntennaParameters on_duty(const AntennaParameters& antenna, const ReaderDuty& du
           "antenna '{}' has the paper's model: power, carriers, session and Q have no effect on it",
           antenna.name));
     }
-    return told;
+    return changed;
   }
   auto model = std::make_shared<RadioModel>(*mounted);
   model->transmit_power_dbm = own.transmit_power_dbm.value_or(model->transmit_power_dbm);
@@ -71,9 +71,9 @@ AntennaParameters on_duty(const AntennaParameters& antenna, const ReaderDuty& du
   for (const std::string& odd : diagnostics.warnings()) {
     warnings.push_back(fmt::format("antenna '{}': {}", antenna.name, odd));
   }
-  told.model = std::shared_ptr<const RadioModel>(std::move(model));
-  check(told);
-  return told;
+  changed.model = std::shared_ptr<const RadioModel>(std::move(model));
+  check(changed);
+  return changed;
 }
 
 }  // namespace tagfield

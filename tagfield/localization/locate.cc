@@ -173,13 +173,14 @@ void warn_of_unknown_pose_error(const LocalizationProblem& problem,
                                 const LocalizationResult& result, Diagnostics& diagnostics) {
   if (problem.pose_error || !is_by_phase(result.method) || learns_pose_error(result.method)) return;
   if (!has_located(problem, result)) return;
-  const bool is_told = std::any_of(problem.tracks.begin(), problem.tracks.end(),
-                                   [](const auto& of) { return !of.second.covariance.empty(); });
+  const bool has_covariances =
+      std::any_of(problem.tracks.begin(), problem.tracks.end(),
+                  [](const auto& of) { return !of.second.covariance.empty(); });
   diagnostics.warn(fmt::format(
       "{}, and '{}' takes them as exact: if they are not, positions are further off than the "
       "expected errors say. Give their error (0 if they are exact), or use 'joint', which {}",
-      is_told ? "the poses' covariances are not used" : "the poses' error is not stated",
-      result.method, is_told ? "uses them" : "estimates it"));
+      has_covariances ? "the poses' covariances are not used" : "the poses' error is not stated",
+      result.method, has_covariances ? "uses them" : "estimates it"));
 }
 
 }  // namespace

@@ -251,9 +251,9 @@ void refuse_wrong_sign(const LocalizationProblem& problem, LocalizationResult& r
   std::size_t wrong = 0;
   const auto informative = informative_tags(problem);
   for (const auto* entry : informative) {
-    const double as_told = best_share(problem, entry->first, entry->second);
+    const double as_given = best_share(problem, entry->first, entry->second);
     const double other = best_share(problem, entry->first, with_other_sign(entry->second));
-    if (other > as_told + kBetter && other > 0.5) ++wrong;
+    if (other > as_given + kBetter && other > 0.5) ++wrong;
   }
   if (wrong == 0 || 2 * wrong <= informative.size()) return;
   diagnostics.warn(

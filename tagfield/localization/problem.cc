@@ -130,8 +130,8 @@ void warn_of_unknown_heights(const KnownBeforehand& known, const std::vector<std
   if (heights.of_all || heights.estimated) return;
   std::vector<std::string> without;
   for (const std::string& tag : tags) {
-    const bool is_told = heights.of_tag.count(tag) > 0 || known.reference_tags.count(tag) > 0;
-    if (!is_told) without.push_back(tag);
+    const bool is_known = heights.of_tag.count(tag) > 0 || known.reference_tags.count(tag) > 0;
+    if (!is_known) without.push_back(tag);
   }
   if (without.empty()) return;
   const std::string whose =

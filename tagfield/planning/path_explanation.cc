@@ -66,13 +66,13 @@ Ends ends_of(const RadioView& view, const TagEnd& tag) {
 }
 
 void set_relative(std::complex<double> gain, std::complex<double> free_gain,
-                  PathExplanation& told) {
+                  PathExplanation& explanation) {
   if (!(std::norm(free_gain) > 0.0)) return;
   const std::complex<double> ratio = gain / free_gain;
   const double relative_db = to_db(std::norm(ratio));
   if (!std::isfinite(relative_db) || relative_db <= kLeast_db) return;
-  told.relative_db = relative_db;
-  told.relative_phase_rad = wrap_to_pi(std::arg(ratio));
+  explanation.relative_db = relative_db;
+  explanation.relative_phase_rad = wrap_to_pi(std::arg(ratio));
 }
 
 /// The gain of an edge is relative to a free path of the same length.
@@ -87,37 +87,37 @@ PathExplanation explain(const RadioView& view, const TagEnd& tag, const Diffract
   const double free = view.carrier.lambda_m / (4.0 * kPi * path.length_m());
   const double both =
       power_at(ends.antenna, path.departure_W) * power_at(ends.tag, -path.arrival_W);
-  PathExplanation told;
-  told.length_m = path.length_m();
-  told.excess_m = std::max(0.0, path.length_m() - direct_m);
-  told.edge = surface(view.world, (*view.edges)[path.edge].solid,
-                      to_db(std::norm(gain)) - to_db(both * free * free));
-  told.edge->p_W = path.p_W;
-  set_relative(gain, free_gain, told);
-  return told;
+  PathExplanation explanation;
+  explanation.length_m = path.length_m();
+  explanation.excess_m = std::max(0.0, path.length_m() - direct_m);
+  explanation.edge = surface(view.world, (*view.edges)[path.edge].solid,
+                             to_db(std::norm(gain)) - to_db(both * free * free));
+  explanation.edge->p_W = path.p_W;
+  set_relative(gain, free_gain, explanation);
+  return explanation;
 }
 
 PathExplanation explain(const RadioView& view, const TagEnd& tag, const Ends& ends,
                         const RadioPath& path, double direct_m, std::complex<double> free_gain) {
   const PathBudget budget =
       path_budget(path, ends.antenna, ends.tag, view.world, view.carrier, ends.effects);
-  PathExplanation told;
-  told.order = path.bounce_count;
-  told.length_m = path.length_m;
-  told.excess_m = std::max(0.0, path.length_m - direct_m);
-  told.blocked = path.blocked;
-  told.bounces = bounces_of(path, budget, view.world);
-  told.crossings = crossings_of(path, budget, view.world);
-  if (path.blocked) return told;
+  PathExplanation explanation;
+  explanation.order = path.bounce_count;
+  explanation.length_m = path.length_m;
+  explanation.excess_m = std::max(0.0, path.length_m - direct_m);
+  explanation.blocked = path.blocked;
+  explanation.bounces = bounces_of(path, budget, view.world);
+  explanation.crossings = crossings_of(path, budget, view.world);
+  if (path.blocked) return explanation;
   std::complex<double> gain =
       path_gain(path, ends.antenna, ends.tag, view.world, view.carrier, ends.effects);
   if (!view.bodies.empty()) {
     const std::complex<double> left = past_bodies(path, view, tag);
-    told.bodies_db = to_db(std::norm(left));
+    explanation.bodies_db = to_db(std::norm(left));
     gain *= left;
   }
-  set_relative(gain, free_gain, told);
-  return told;
+  set_relative(gain, free_gain, explanation);
+  return explanation;
 }
 
 double strength(const PathExplanation& path) { return path.relative_db.value_or(kLeast_db); }
@@ -168,21 +168,23 @@ std::vector<PathExplanation> explain_paths(const RadioView& view, const TagEnd& 
   const double direct_m = (tag.X_WT.translation - view.X_WA.translation).norm();
   const std::complex<double> free_gain =
       free_space_gain(ends.antenna, ends.tag, view.carrier, ends.effects);
-  std::vector<PathExplanation> told;
-  told.reserve(paths.size());
+  std::vector<PathExplanation> explanations;
+  explanations.reserve(paths.size());
   for (const RadioPath& path : paths) {
-    told.push_back(explain(view, tag, ends, path, direct_m, free_gain));
+    explanations.push_back(explain(view, tag, ends, path, direct_m, free_gain));
   }
-  const auto direct_ones = static_cast<std::ptrdiff_t>(std::count_if(
-      told.begin(), told.end(), [](const PathExplanation& path) { return path.order == 0; }));
+  const auto direct_ones = static_cast<std::ptrdiff_t>(
+      std::count_if(explanations.begin(), explanations.end(),
+                    [](const PathExplanation& path) { return path.order == 0; }));
   for (const DiffractedPath& path : over_edges) {
-    told.push_back(explain(view, tag, path, direct_m, free_gain));
+    explanations.push_back(explain(view, tag, path, direct_m, free_gain));
   }
-  const auto rest = told.begin() + direct_ones;
-  std::stable_sort(rest, told.end(), [](const PathExplanation& a, const PathExplanation& b) {
-    return a.blocked != b.blocked ? b.blocked : strength(a) > strength(b);
-  });
-  return told;
+  const auto rest = explanations.begin() + direct_ones;
+  std::stable_sort(rest, explanations.end(),
+                   [](const PathExplanation& a, const PathExplanation& b) {
+                     return a.blocked != b.blocked ? b.blocked : strength(a) > strength(b);
+                   });
+  return explanations;
 }
 
 }  // namespace tagfield

@@ -39,8 +39,8 @@ std::string called(const Condition& condition) {
 KnownBeforehand known_in(const Scenario& scenario, const Condition& condition) {
   KnownBeforehand known = known_beforehand(scenario);
   if (std::holds_alternative<UnknownPoseError>(condition.believed)) known.pose_error.reset();
-  if (const auto* told = std::get_if<PoseErrorModel>(&condition.believed)) {
-    known.pose_error = *told;
+  if (const auto* stated = std::get_if<PoseErrorModel>(&condition.believed)) {
+    known.pose_error = *stated;
   }
   return known;
 }

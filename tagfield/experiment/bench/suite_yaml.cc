@@ -92,7 +92,7 @@ ReadLoss loss_of(YamlMap map) {
 }
 
 /// Whether the fault is set. Throws Error on `false`, which would be no fault at all.
-bool is_told(YamlMap& map, const std::string& key) {
+bool is_set(YamlMap& map, const std::string& key) {
   if (!map.has(key)) return false;
   if (!map.at(key).boolean()) map.at(key).fail("is false: leave it out");
   return true;
@@ -107,12 +107,12 @@ std::vector<std::string> two_antennas(const YamlValue& value) {
 
 Faults faults_in(YamlMap map) {
   Faults faults;
-  faults.random_phases = is_told(map, "random_phases");
-  faults.constant_phases = is_told(map, "constant_phases");
-  faults.wrong_phase_sign = is_told(map, "wrong_phase_sign");
-  faults.random_rssi = is_told(map, "random_rssi");
-  faults.duplicate_epcs = is_told(map, "duplicate_epcs");
-  faults.poses_of_another_run = is_told(map, "poses_of_another_run");
+  faults.random_phases = is_set(map, "random_phases");
+  faults.constant_phases = is_set(map, "constant_phases");
+  faults.wrong_phase_sign = is_set(map, "wrong_phase_sign");
+  faults.random_rssi = is_set(map, "random_rssi");
+  faults.duplicate_epcs = is_set(map, "duplicate_epcs");
+  faults.poses_of_another_run = is_set(map, "poses_of_another_run");
   if (map.has("timestamp_delay_s")) {
     faults.timestamp_delay_s = map.at("timestamp_delay_s").number(kPositive);
     if (faults.timestamp_delay_s > kMaxTimestampDelay_s) {

@@ -151,7 +151,7 @@ KnownBeforehand known_of(const SuiteRecording& recording, const StatedPoseError&
   known.heights.of_all = recording.tag_height_m;
   if (!recording.heights.empty()) known.heights.of_tag = read_tag_heights_csv(recording.heights);
   known.area = recording.area;
-  if (const auto* told = std::get_if<PoseErrorModel>(&believed)) known.pose_error = *told;
+  if (const auto* stated = std::get_if<PoseErrorModel>(&believed)) known.pose_error = *stated;
   return known;
 }
 

@@ -157,13 +157,13 @@ TEST(RunSeeds, StopsWhileLocating) {
   std::atomic<bool> stop{false};
   RunControl control;
   control.stop = &stop;
-  std::size_t told = 0;
-  control.on_stage = [&](const std::string&, double) { ++told; };
+  std::size_t reports = 0;
+  control.on_stage = [&](const std::string&, double) { ++reports; };
   const SeedRun whole = run_seeds(small_experiment(), 1, 1, {}, diagnostics).at(0);
   SeedRun run = simulate(small_experiment(), 1, {});
   localize(small_experiment(), run, control, diagnostics);
   EXPECT_TRUE(run.complete);
-  EXPECT_EQ(told, 2U);  // Of the tags that were read.
+  EXPECT_EQ(reports, 2U);  // Of the tags that were read.
   control.on_stage = [&](const std::string&, double) { stop = true; };
   run = simulate(small_experiment(), 1, {});
   localize(small_experiment(), run, control, diagnostics);
@@ -177,10 +177,10 @@ TEST(RunSeeds, StopsWhileLocating) {
 TEST(RunSeeds, KeepsItsEstimatesWhenStoppedWhileOthersAreCompared) {
   Diagnostics diagnostics;
   std::atomic<bool> stop{false};
-  std::size_t told = 0;
+  std::size_t reports = 0;
   RunControl control;
   control.stop = &stop;
-  control.on_stage = [&](const std::string&, double) { stop = ++told > 2; };
+  control.on_stage = [&](const std::string&, double) { stop = ++reports > 2; };
   Scenario scenario = small_experiment();
   scenario.localization.compare = {"ml"};
   SeedRun run = simulate(scenario, 1, {});

@@ -47,7 +47,7 @@ TEST(ReadLoss, BurstsTakeTheShareOfAPoissonProcess) {
   EXPECT_NEAR(share_of(lost_reads(reads, {0.3, 1.0, 10.0}, 3)), 1.0 - 0.7 * std::exp(-0.1), 0.01);
 }
 
-TEST(ReadLoss, BurstsAreAsLongAsTold) {
+TEST(ReadLoss, BurstsAreAsLongAsStated) {
   const std::vector<TagRead> reads = reads_of(20'000.0, 20.0);
   const std::vector<bool> lost = lost_reads(reads, {0.0, 2.0, 500.0}, 5);
   // Both tags are lost simultaneously, and hardly any bursts overlap.

@@ -121,12 +121,12 @@ TEST(RunBench, SaysWhyThereIsNoBound) {
   EXPECT_EQ(bench.conditions[1].no_bound, "");
 }
 
-TEST(RunBench, ToldPoseErrorReachesTheMethods) {
-  std::optional<PoseErrorModel> told;
+TEST(RunBench, StatedPoseErrorReachesTheMethods) {
+  std::optional<PoseErrorModel> stated;
   const std::vector<Method> methods = {
       hyperbola_method(),
       {"hear", "keeps what it is told", [&](const LocalizationProblem& problem, int, Diagnostics&) {
-         told = problem.pose_error;
+         stated = problem.pose_error;
          return LocalizationResult{};
        }}};
   Suite suite = small_suite();
@@ -135,19 +135,19 @@ TEST(RunBench, ToldPoseErrorReachesTheMethods) {
   suite.conditions.resize(1);
   suite.conditions[0].settings = {{"pose.source", "noisy"}, {"pose.sigma_m", "0.02"}};
   run_bench(suite, methods, on_threads(1));
-  ASSERT_TRUE(told);
-  EXPECT_EQ(told->sigma_m, 0.02);
+  ASSERT_TRUE(stated);
+  EXPECT_EQ(stated->sigma_m, 0.02);
   suite.conditions[0].believed = PoseErrorModel{0.04, 0.0, 10.0};
   run_bench(suite, methods, on_threads(1));
-  EXPECT_EQ(told.value().sigma_m, 0.04);
+  EXPECT_EQ(stated.value().sigma_m, 0.04);
   suite.conditions[0].believed = UnknownPoseError{};
   run_bench(suite, methods, on_threads(1));
-  EXPECT_FALSE(told);
+  EXPECT_FALSE(stated);
   // A method's own settings override the condition's.
   suite.conditions[0].believed = {};
   suite.methods[0].localization = {{"localization.pose_error", "{sigma_m: 0.07}"}};
   run_bench(suite, methods, on_threads(1));
-  EXPECT_EQ(told.value().sigma_m, 0.07);
+  EXPECT_EQ(stated.value().sigma_m, 0.07);
 }
 
 TEST(RunBench, FaultsReachTheMethodsAndTheJudge) {

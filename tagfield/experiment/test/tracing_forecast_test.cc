@@ -76,7 +76,7 @@ TEST(TracingForecast, FewTagsAtRestKeepTheirImages) {
   EXPECT_FALSE(tags_keep_images(scenario));
 }
 
-TEST(TracingForecast, LongRunsAreToldOfWithAnOrderThatFits) {
+TEST(TracingForecast, LongRunsAreWarnedOfWithAnOrderThatFits) {
   Diagnostics diagnostics;
   warn_of_long_tracing(hall_with(4, 1), diagnostics);
   EXPECT_TRUE(diagnostics.warnings().empty());

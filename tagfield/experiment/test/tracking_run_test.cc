@@ -57,16 +57,16 @@ TEST(TrackSeeds, StopsBetweenTags) {
   std::atomic<bool> stop{false};
   RunControl control;
   control.stop = &stop;
-  std::size_t told = 0;
+  std::size_t reports = 0;
   control.on_stage = [&](const std::string&, double) {
     stop = true;
-    ++told;
+    ++reports;
   };
   const auto runs = track_seeds(belt(), 1, 2, control, diagnostics);
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_TRUE(runs[0].tracks.empty());
   EXPECT_FALSE(runs[0].reads.empty());
-  EXPECT_EQ(told, 1U);
+  EXPECT_EQ(reports, 1U);
 }
 
 }  // namespace

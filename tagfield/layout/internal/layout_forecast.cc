@@ -106,12 +106,13 @@ bool LayoutForecast::has_enough(const std::vector<CountedReads>& reads, const Op
     for (const CountedReads& of_port : reads) sum += of_port.reads;
     return sum >= *plan_.aim.dwell_reads;
   }
-  std::vector<Told> told;
+  std::vector<PositionInformation> information;
   for (std::size_t port = 0; port < reads.size(); ++port) {
-    told.push_back(told_by(ranges[port][row], reads[port].reads, reads[port].spread(),
-                           place_of(choice[port]), matrix_.rows[row].X_WT.translation));
+    information.push_back(position_information(ranges[port][row], reads[port].reads,
+                                               reads[port].spread(), place_of(choice[port]),
+                                               matrix_.rows[row].X_WT.translation));
   }
-  return error_bound_m(told) <= *plan_.aim.position_error_m;
+  return error_bound_m(information) <= *plan_.aim.position_error_m;
 }
 
 // NOLINTNEXTLINE(readability-function-size): what all samples share is gathered once.
@@ -149,10 +150,10 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& cho
           const LinkStates& link = states[port][first + stop];
           if (link.is_empty()) continue;
           // The pallet stands at the start of its path before, and at the end of it afterwards.
-          ForecastLink told{port, stops[stop].begin_s, stops[stop].end_s, &link};
-          if (stop == 0) told.begin_s = 0.0;
-          if (stop + 1 == stops.size()) told.end_s = duration_s_;
-          of_tag.links.push_back(told);
+          ForecastLink forecast_link{port, stops[stop].begin_s, stops[stop].end_s, &link};
+          if (stop == 0) forecast_link.begin_s = 0.0;
+          if (stop + 1 == stops.size()) forecast_link.end_s = duration_s_;
+          of_tag.links.push_back(forecast_link);
         }
       }
     }

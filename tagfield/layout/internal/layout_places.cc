@@ -43,22 +43,24 @@ std::vector<double> errors_by_place(const PlanSpec& plan, const LinkMatrix& matr
                                     const PlanProblem& problem, const OptionSet& choice) {
   const auto [first_place, places] = first_places(plan);
   const std::vector<LinkElement> elements = elements_of(matrix);
-  std::vector<std::vector<Told>> told(places);
+  std::vector<std::vector<PositionInformation>> information(places);
   for (const std::size_t option : choice) {
-    std::vector<Told> of_option(places);
-    for (const Told& one : problem.selection.options[option].told) {
+    std::vector<PositionInformation> of_option(places);
+    for (const PositionInformation& one : problem.selection.options[option].information) {
       const LinkRow& row = matrix.rows[elements[one.element / kFadingPositions].first_row];
       const auto ways =
           static_cast<float>(plan.tags[row.group].orientations.size() * kFadingPositions);
-      Told& sum = of_option[first_place[row.group] + row.place];
+      PositionInformation& sum = of_option[first_place[row.group] + row.place];
       sum.xx += one.xx / ways;
       sum.xy += one.xy / ways;
       sum.yy += one.yy / ways;
     }
-    for (std::size_t place = 0; place < places; ++place) told[place].push_back(of_option[place]);
+    for (std::size_t place = 0; place < places; ++place) {
+      information[place].push_back(of_option[place]);
+    }
   }
   std::vector<double> errors(places);
-  std::transform(told.begin(), told.end(), errors.begin(), error_bound_m);
+  std::transform(information.begin(), information.end(), errors.begin(), error_bound_m);
   return errors;
 }
 

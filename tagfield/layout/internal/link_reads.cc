@@ -83,8 +83,8 @@ double information_of_strength(double distance_m) {
   return std::pow(slope / kFading_db, 2.0);
 }
 
-Told information_along(double information, const Eigen::Vector3d& p_WA,
-                       const Eigen::Vector3d& p_WT) {
+PositionInformation information_along(double information, const Eigen::Vector3d& p_WA,
+                                      const Eigen::Vector3d& p_WT) {
   const Eigen::Vector3d way = p_WT - p_WA;
   const Eigen::Vector2d u = way.head<2>() / std::max(way.norm(), 1e-9);
   return {0, static_cast<float>(information * u.x() * u.x()),
@@ -94,8 +94,8 @@ Told information_along(double information, const Eigen::Vector3d& p_WA,
 
 RangeInformation range_information(const RadioModel& model, const LinkStates& states,
                                    double less_db, double distance_m) {
-  RangeInformation told;
-  if (states.is_empty()) return told;
+  RangeInformation information;
+  if (states.is_empty()) return information;
   double heard = 0.0;
   double precision = 0.0;  // 1/σφ², summed.
   for (std::size_t place = 0; place < kFadingPositions; ++place) {
@@ -107,10 +107,10 @@ RangeInformation range_information(const RadioModel& model, const LinkStates& st
       precision += std::pow(phase_sigma(model.hardware, reply_dbm), -2.0);
     }
   }
-  if (heard == 0.0) return told;
-  told.precision = precision / heard;
-  told.by_strength = information_of_strength(distance_m);
-  return told;
+  if (heard == 0.0) return information;
+  information.precision = precision / heard;
+  information.by_strength = information_of_strength(distance_m);
+  return information;
 }
 
 double expected_spread(const RadioModel& model, double reads, double visited) {
@@ -121,8 +121,8 @@ double expected_spread(const RadioModel& model, double reads, double visited) {
   return reads * spread_of(model) * (1.0 - 1.0 / channels);
 }
 
-Told told_by(const RangeInformation& range, double reads, double spread,
-             const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT) {
+PositionInformation position_information(const RangeInformation& range, double reads, double spread,
+                                         const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT) {
   if (!(reads > 0.0)) return {};
   return information_along(
       information_of_phases(spread * range.precision) + range.by_strength * std::min(reads, 1.0),

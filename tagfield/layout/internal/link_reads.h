@@ -42,8 +42,8 @@ double information_of_phases(double spread_over_noise);
 double information_of_strength(double distance_m);
 /// Information about x and y from that about a distance: along the horizontal component of the line
 /// from antenna to tag.
-Told information_along(double information, const Eigen::Vector3d& p_WA,
-                       const Eigen::Vector3d& p_WT);
+PositionInformation information_along(double information, const Eigen::Vector3d& p_WA,
+                                      const Eigen::Vector3d& p_WT);
 
 /// Information about the distance from an antenna's reads of a tag.
 struct RangeInformation {
@@ -61,7 +61,7 @@ RangeInformation range_information(const RadioModel& model, const LinkStates& st
 double expected_spread(const RadioModel& model, double reads, double visited);
 
 /// Information about x and y from `reads` over carriers with this Σ (f − f̄)² [Hz²].
-Told told_by(const RangeInformation& range, double reads, double spread,
-             const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT);
+PositionInformation position_information(const RangeInformation& range, double reads, double spread,
+                                         const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT);
 
 }  // namespace tagfield

@@ -35,7 +35,7 @@ bool SatisfiedTags::has_enough(const std::string& tag, const OfTag& of_tag) cons
   if (run_.aim.dwell_reads) return static_cast<double>(of_tag.reads) >= *run_.aim.dwell_reads;
   if (!run_.aim.position_error_m) return true;
   const Eigen::Vector3d& p_WT = run_.p_WT.at(tag);
-  std::vector<Told> all;
+  std::vector<PositionInformation> all;
   for (const auto& [antenna, link] : of_tag.links) {
     const Eigen::Vector3d& p_WA = run_.p_WA.at(antenna);
     const double spread = std::max(0.0, link.second - link.first * link.first / link.weight);

@@ -7,7 +7,7 @@
 
 namespace tagfield {
 
-InformationSum InformationSum::with(const Told& one) const {
+InformationSum InformationSum::with(const PositionInformation& one) const {
   const bool tells = one.xx + one.yy > 0.0F;
   return {xx + static_cast<double>(one.xx), xy + static_cast<double>(one.xy),
           yy + static_cast<double>(one.yy), antennas + (tells ? 1 : 0)};
@@ -32,7 +32,7 @@ Tally::Tally(const SelectionProblem& problem, const OptionSet& choice) : problem
       reads_.assign(elements, 0.0);
       break;
     case Worth::kPlace:
-      told_.resize(elements);
+      information_.resize(elements);
       break;
   }
   for (const std::size_t option : choice) take(option);
@@ -52,7 +52,9 @@ void Tally::take(std::size_t option) {
       }
       break;
     case Worth::kPlace:
-      for (const Told& one : taken.told) told_[one.element] = told_[one.element].with(one);
+      for (const PositionInformation& one : taken.information) {
+        information_[one.element] = information_[one.element].with(one);
+      }
       break;
   }
 }
@@ -76,8 +78,8 @@ double Tally::gain(std::size_t option) const {
       }
       break;
     case Worth::kPlace:
-      for (const Told& one : other.told) {
-        const InformationSum& before = told_[one.element];
+      for (const PositionInformation& one : other.information) {
+        const InformationSum& before = information_[one.element];
         gain += worth_of_place(one.element, before.with(one)) - worth_of_place(one.element, before);
       }
       break;
@@ -96,7 +98,7 @@ double Tally::score() const {
         score += worth_of_reads(i, reads_[i]);
         break;
       case Worth::kPlace:
-        score += worth_of_place(i, told_[i]);
+        score += worth_of_place(i, information_[i]);
         break;
     }
   }
@@ -111,7 +113,7 @@ double Tally::met(std::size_t element) const {
     case Worth::kReads:
       return reads_[element] >= problem_.cap - kRounding ? 1.0 : 0.0;
     case Worth::kPlace:
-      return told_[element].error_m() <= problem_.error_m ? 1.0 : 0.0;
+      return information_[element].error_m() <= problem_.error_m ? 1.0 : 0.0;
   }
   return 0.0;
 }
@@ -124,12 +126,12 @@ double Tally::worth_of_reads(std::size_t element, double reads) const {
   return problem_.elements[element].weight * (std::min(reads, problem_.cap) / problem_.cap);
 }
 
-double Tally::worth_of_place(std::size_t element, const InformationSum& told) const {
+double Tally::worth_of_place(std::size_t element, const InformationSum& sum) const {
   const double before = 1.0 / (problem_.spread_m * problem_.spread_m);
   const double aim = 8.0 / (problem_.error_m * problem_.error_m);
-  const double xx = told.xx + before;
-  const double yy = told.yy + before;
-  const double gained = std::log((xx * yy - told.xy * told.xy) / (before * before));
+  const double xx = sum.xx + before;
+  const double yy = sum.yy + before;
+  const double gained = std::log((xx * yy - sum.xy * sum.xy) / (before * before));
   return problem_.elements[element].weight * std::min(1.0, gained / (2.0 * std::log(aim / before)));
 }
 

@@ -18,7 +18,7 @@ struct InformationSum {
   double yy = 0.0;
   std::size_t antennas = 0;  ///< With nonzero information.
 
-  [[nodiscard]] InformationSum with(const Told& one) const;
+  [[nodiscard]] InformationSum with(const PositionInformation& one) const;
   /// As error_bound_m().
   [[nodiscard]] double error_m() const;
 };
@@ -38,13 +38,13 @@ class Tally {
  private:
   [[nodiscard]] double worth_of_miss(std::size_t element, double miss) const;
   [[nodiscard]] double worth_of_reads(std::size_t element, double reads) const;
-  [[nodiscard]] double worth_of_place(std::size_t element, const InformationSum& told) const;
+  [[nodiscard]] double worth_of_place(std::size_t element, const InformationSum& sum) const;
 
   const SelectionProblem& problem_;
   // By element; only the one used by the problem's worth is filled.
   std::vector<double> miss_;
   std::vector<double> reads_;
-  std::vector<InformationSum> told_;
+  std::vector<InformationSum> information_;
 };
 
 }  // namespace tagfield

@@ -77,11 +77,11 @@ TEST(LinkReads, TellOfAPlaceWhatTheWholeInformationMatrixDoes) {
   for (const double carrier : carriers) mean += carrier / count;
   double spread = 0.0;
   for (const double carrier : carriers) spread += std::pow(carrier - mean, 2);
-  std::vector<Told> told;
+  std::vector<PositionInformation> information;
   for (const Eigen::Vector3d& p_WA : antennas) {
-    told.push_back(information_along(information_of_phases(spread / 0.01), p_WA, p_WT));
+    information.push_back(information_along(information_of_phases(spread / 0.01), p_WA, p_WT));
   }
-  EXPECT_NEAR(error_bound_m(told) / plainly(antennas, p_WT, carriers, 0.1), 1.0, 1e-5);
+  EXPECT_NEAR(error_bound_m(information) / plainly(antennas, p_WT, carriers, 0.1), 1.0, 1e-5);
 }
 
 TEST(LinkReads, TellLessWhereTheyAreWeak) {
@@ -96,7 +96,7 @@ TEST(LinkReads, TellLessWhereTheyAreWeak) {
   EXPECT_EQ(range_information(model, states(1.0), 2.0, 2.0).precision, 0.0);
   // 40 dB per decade are 8.7 dB/m at 2 m, so 4 dB of fading give 0.46 m.
   EXPECT_NEAR(1.0 / std::sqrt(strong.by_strength), 0.46, 0.005);
-  const Told once = told_by(strong, 1.0, 0.0, {0, 0, 0}, {2, 0, 0});
+  const PositionInformation once = position_information(strong, 1.0, 0.0, {0, 0, 0}, {2, 0, 0});
   EXPECT_NEAR(once.xx, strong.by_strength, 1e-4 * strong.by_strength);
 }
 

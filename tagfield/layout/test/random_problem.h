@@ -70,10 +70,11 @@ inline SelectionProblem random_problem(std::uint64_t number, std::size_t options
     for (const Miss& miss : option.misses) {
       option.reads.push_back({miss.element, static_cast<float>(4.0 * uniform(stream))});
       const double turn = kTwoPi * uniform(stream);
-      const double told = 50.0 * uniform(stream);
-      option.told.push_back({miss.element, static_cast<float>(told * std::pow(std::cos(turn), 2)),
-                             static_cast<float>(told * std::cos(turn) * std::sin(turn)),
-                             static_cast<float>(told * std::pow(std::sin(turn), 2))});
+      const double information = 50.0 * uniform(stream);
+      option.information.push_back(
+          {miss.element, static_cast<float>(information * std::pow(std::cos(turn), 2)),
+           static_cast<float>(information * std::cos(turn) * std::sin(turn)),
+           static_cast<float>(information * std::pow(std::sin(turn), 2))});
     }
   }
   problem.cap = worth == Worth::kReads ? 5.0 : 1.0;

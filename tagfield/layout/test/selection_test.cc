@@ -93,26 +93,27 @@ TEST(Selection, CountsReadsUpToTheCap) {
   EXPECT_EQ(met_by(problem, {0, 1, 2}), (std::vector<double>{1.0, 0.0}));
 }
 
-TEST(Selection, CountsWhatIsToldOfPlaces) {
+TEST(Selection, CountsInformationAboutPlaces) {
   // Distances along x, y and the diagonal, known to 0.1, 0.2 and 0.1 m.
   SelectionProblem problem = three_options();
   problem.worth = Worth::kPlace;
   problem.spread_m = 1.0;
   problem.error_m = 0.2;
-  problem.options[0].told = {{0, 100.0F, 0.0F, 0.0F}};
-  problem.options[1].told = {{0, 0.0F, 0.0F, 25.0F}};
-  problem.options[2].told = {{0, 50.0F, 50.0F, 50.0F}};
+  problem.options[0].information = {{0, 100.0F, 0.0F, 0.0F}};
+  problem.options[1].information = {{0, 0.0F, 0.0F, 25.0F}};
+  problem.options[2].information = {{0, 50.0F, 50.0F, 50.0F}};
   // Half of ln det J/J₀ relative to that for an error of 0.1 m: 1/200 m² along each axis.
   EXPECT_NEAR(score_of(problem, {0}), 0.5 * std::log(101.0) / (2.0 * std::log(200.0)), 1e-12);
   EXPECT_NEAR(score_of(problem, {0, 1}), 0.5 * std::log(101.0 * 26.0) / (2.0 * std::log(200.0)),
               1e-12);
   // Two distances leave two possible positions; for three, √tr J⁻¹ with J = [150 50; 50 75].
   const SelectionOption* const all = problem.options.data();
-  EXPECT_TRUE(std::isinf(error_bound_m({all[0].told[0], all[1].told[0]})));
-  EXPECT_NEAR(error_bound_m({all[0].told[0], all[1].told[0], all[2].told[0]}),
+  EXPECT_TRUE(std::isinf(error_bound_m({all[0].information[0], all[1].information[0]})));
+  EXPECT_NEAR(error_bound_m({all[0].information[0], all[1].information[0], all[2].information[0]}),
               std::sqrt(225.0 / (150.0 * 75.0 - 2500.0)), 1e-9);
   // Three antennas in a line give information in one direction only.
-  EXPECT_TRUE(std::isinf(error_bound_m({all[0].told[0], all[0].told[0], all[0].told[0]})));
+  EXPECT_TRUE(std::isinf(
+      error_bound_m({all[0].information[0], all[0].information[0], all[0].information[0]})));
   EXPECT_EQ(met_by(problem, {0, 1, 2}), (std::vector<double>{1.0, 0.0}));
   problem.error_m = 0.15;
   EXPECT_EQ(met_by(problem, {0, 1, 2}), (std::vector<double>{0.0, 0.0}));

@@ -27,8 +27,8 @@ TEST(ReaderDuty, ReplacesWhatItNamesAndNothingElse) {
   duty.start_q = 7;
   std::vector<std::string> warnings;
   const AntennaParameters before = physical_antenna(true);
-  const AntennaParameters told = on_duty(before, duty, warnings);
-  const RadioModel& model = *physical(told);
+  const AntennaParameters changed = on_duty(before, duty, warnings);
+  const RadioModel& model = *physical(changed);
   EXPECT_EQ(model.transmit_power_dbm, 21.5);
   EXPECT_EQ(model.gen2->inventory.session, Session::kS2);
   EXPECT_EQ(model.gen2->inventory.target, Target::kAlternate);

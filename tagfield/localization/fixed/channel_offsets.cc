@@ -222,10 +222,10 @@ bool is_out_of_order(const std::vector<std::vector<FixedReads>>& tags) {
     best.push_back(most);
   }
   if (neighbours.size() < kFewest) return false;
-  const double told = mean_of(neighbours);
+  const double mean = mean_of(neighbours);
   const double error =
-      spread_of(neighbours, told) / std::sqrt(static_cast<double>(neighbours.size()));
-  return told + kClearly * error < mean_of(best);
+      spread_of(neighbours, mean) / std::sqrt(static_cast<double>(neighbours.size()));
+  return mean + kClearly * error < mean_of(best);
 }
 
 RangeLikelihood range_likelihood(const FixedReads& reads, const ChannelTurns& offsets,

@@ -19,7 +19,7 @@ constexpr double kSettled = 0.02;           ///< or until ln of the likelihood c
 constexpr double kNegligibleWeight = 1e-4;  ///< Cells of less weight are skipped.
 
 /// A tag's contribution to the law: its normal equations, and its share of the fading.
-struct Told {
+struct Contribution {
   Eigen::MatrixXd normal;
   Eigen::VectorXd right;
   double squares = 0.0;
@@ -75,8 +75,8 @@ StrengthLaw before_data(std::size_t antennas, const StrengthPrior& prior) {
   return law;
 }
 
-Told told_by(const TagOnGrid& tag, const StrengthLaw& law, const Eigen::ArrayXd& weights,
-             const StrengthPrior& prior) {
+Contribution contribution_of(const TagOnGrid& tag, const StrengthLaw& law,
+                             const Eigen::ArrayXd& weights, const StrengthPrior& prior) {
   const Eigen::Index size = law.mean.size();
   const auto count = static_cast<Eigen::Index>(tag.antennas.size());
   const double tag_variance = prior.tag_sigma_db * prior.tag_sigma_db;
@@ -85,43 +85,44 @@ Told told_by(const TagOnGrid& tag, const StrengthLaw& law, const Eigen::ArrayXd&
   // Gain that estimates the tag's own deviation from the sum of its misfits.
   const double gain =
       tag_variance / (law.fading_db * law.fading_db + static_cast<double>(count) * tag_variance);
-  Told told{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0,
-            static_cast<double>(count)};
+  Contribution contribution{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0,
+                            static_cast<double>(count)};
   for (Eigen::Index cell = 0; cell < weights.size(); ++cell) {
     if (weights[cell] < kNegligibleWeight) continue;
     const Eigen::MatrixXd rows = design(tag, cell, size);
     const Eigen::VectorXd strengths = less_gain(tag, cell);
     const Eigen::MatrixXd weighted = weights[cell] * product(rows.transpose(), inverse);
-    told.normal += product(weighted, rows);
-    told.right += weighted * strengths;
+    contribution.normal += product(weighted, rows);
+    contribution.right += weighted * strengths;
     const Eigen::VectorXd misfit = strengths - rows * law.mean;
     const double own = gain * misfit.sum();
-    told.squares +=
+    contribution.squares +=
         weights[cell] * ((misfit.array() - own).square().sum() +
                          static_cast<double>(count) * gain * law.fading_db * law.fading_db +
                          transformed(rows, law.covariance).trace());
   }
-  return told;
+  return contribution;
 }
 
-Told sum_of(const std::vector<Told>& all, Eigen::Index size) {
-  Told sum{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0, 0.0};
-  for (const Told& told : all) {
-    sum.normal += told.normal;
-    sum.right += told.right;
-    sum.squares += told.squares;
-    sum.strengths += told.strengths;
+Contribution sum_of(const std::vector<Contribution>& all, Eigen::Index size) {
+  Contribution sum{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0, 0.0};
+  for (const Contribution& contribution : all) {
+    sum.normal += contribution.normal;
+    sum.right += contribution.right;
+    sum.squares += contribution.squares;
+    sum.strengths += contribution.strengths;
   }
   return sum;
 }
 
 /// The prior law updated with all contributions except that of one tag.
-StrengthLaw law_by(const StrengthLaw& before, const Told& told, const Told* without) {
+StrengthLaw law_by(const StrengthLaw& before, const Contribution& all,
+                   const Contribution* without) {
   const Eigen::MatrixXd weights = invert_symmetric(before.covariance);
-  Eigen::MatrixXd normal = weights + told.normal;
-  Eigen::VectorXd right = weights * before.mean + told.right;
-  double squares = kWorth * before.fading_db * before.fading_db + told.squares;
-  double strengths = kWorth + told.strengths;
+  Eigen::MatrixXd normal = weights + all.normal;
+  Eigen::VectorXd right = weights * before.mean + all.right;
+  double squares = kWorth * before.fading_db * before.fading_db + all.squares;
+  double strengths = kWorth + all.strengths;
   if (without != nullptr) {
     normal -= without->normal;
     right -= without->right;
@@ -140,18 +141,18 @@ StrengthLaw law_by(const StrengthLaw& before, const Told& told, const Told* with
 double log_of_chance(const std::vector<TagOnGrid>& tags, const StrengthLaw& flat,
                      double tag_sigma_db) {
   const Eigen::Index size = flat.mean.size();
-  std::vector<Told> told;
+  std::vector<Contribution> contributions;
   for (const TagOnGrid& tag : tags) {
     const Eigen::MatrixXd rows = design(tag, 0, size);
     const Eigen::MatrixXd weighted = product(
         rows.transpose(), invert_symmetric(scatter(rows.rows(), flat.fading_db, tag_sigma_db)));
-    told.push_back({product(weighted, rows), weighted * tag.rssi_dbm, 0.0, 0.0});
+    contributions.push_back({product(weighted, rows), weighted * tag.rssi_dbm, 0.0, 0.0});
   }
-  const Told sum = sum_of(told, size);
+  const Contribution sum = sum_of(contributions, size);
   double log = 0.0;
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const Eigen::MatrixXd rows = design(tags[i], 0, size);
-    const StrengthLaw law = law_by(flat, sum, &told[i]);
+    const StrengthLaw law = law_by(flat, sum, &contributions[i]);
     Eigen::VectorXd misfit = tags[i].rssi_dbm - rows * law.mean;
     Eigen::MatrixXd covariance =
         transformed(rows, law.covariance) + scatter(rows.rows(), flat.fading_db, tag_sigma_db);
@@ -236,7 +237,7 @@ LearnedLaw learn_law(const std::vector<TagOnGrid>& tags, std::size_t antennas,
   LearnedLaw learned;
   learned.of_all = before;
   learned.of_tag.assign(tags.size(), before);
-  std::vector<Told> told(tags.size());
+  std::vector<Contribution> contributions(tags.size());
   double log_of_law = 0.0;
   for (int round = 0; round < kLawRounds; ++round) {
     const double before_round = log_of_law;
@@ -244,12 +245,12 @@ LearnedLaw learn_law(const std::vector<TagOnGrid>& tags, std::size_t antennas,
     for (std::size_t i = 0; i < tags.size(); ++i) {
       const Eigen::ArrayXd logs = log_strength(tags[i], learned.of_tag[i], prior);
       log_of_law += log_mean_exp(logs);
-      told[i] = told_by(tags[i], learned.of_all, weights_of(logs), prior);
+      contributions[i] = contribution_of(tags[i], learned.of_all, weights_of(logs), prior);
     }
-    const Told sum = sum_of(told, before.mean.size());
+    const Contribution sum = sum_of(contributions, before.mean.size());
     learned.of_all = law_by(before, sum, nullptr);
     for (std::size_t i = 0; i < tags.size(); ++i) {
-      learned.of_tag[i] = law_by(before, sum, &told[i]);
+      learned.of_tag[i] = law_by(before, sum, &contributions[i]);
     }
     if (round > 0 && std::abs(log_of_law - before_round) < kSettled) break;
   }

@@ -71,16 +71,16 @@ struct Others {
 double likelihood_of(const Others& others, const Eigen::ArrayXcf& overlap, std::complex<float> seen,
                      double exponent, float& least) {
   // Two positions with nearly the same field are one path.
-  constexpr float kTold = 0.01f;
+  constexpr float kDistinct = 0.01f;
   double sum = 0.0;
   for (Eigen::Index j = 0; j < overlap.size(); ++j) {
     const float apart = 1.0f - std::norm(overlap[j]);
-    if (apart < kTold) continue;
+    if (apart < kDistinct) continue;
     const std::complex<float> first = (seen - overlap[j] * others.seen[j]) / apart;
     const std::complex<float> second = (others.seen[j] - std::conj(overlap[j]) * seen) / apart;
     if (std::norm(second) > std::norm(first)) continue;
-    const float told = std::real(std::conj(seen) * first + std::conj(others.seen[j]) * second);
-    const float left = std::max(1.0f - told, static_cast<float>(kMinPathLeft));
+    const float explained = std::real(std::conj(seen) * first + std::conj(others.seen[j]) * second);
+    const float left = std::max(1.0f - explained, static_cast<float>(kMinPathLeft));
     least = std::min(least, left);
     // Relative to the lower limit of the remaining power, to avoid overflow.
     sum += others.area[j] * std::exp(exponent * std::log(kMinPathLeft / static_cast<double>(left)));

@@ -118,7 +118,7 @@ LocalizationProblem changed_problem(const std::string& key) {
 }
 
 /// The method's complete result as text.
-std::string told(const Method& method, const LocalizationProblem& problem) {
+std::string result_text(const Method& method, const LocalizationProblem& problem) {
   Diagnostics diagnostics;
   std::string text;
   for (const TagEstimate& estimate : method.locate(problem, 1, diagnostics).estimates) {
@@ -136,10 +136,10 @@ TEST(EveryMethod, FindsTheSameWhateverIsKnownOfWhatItIgnores) {
   const LocalizationProblem problem = mixed_problem();
   for (const Method& method : methods()) {
     if (method.name == "auto") continue;  // It ignores what the chosen method ignores.
-    const std::string usual = told(method, problem);
+    const std::string usual = result_text(method, problem);
     for (const char* const key :
          {"offset", "pi_ambiguity", "pose_error", "max_expected_error_m", "max_rms_m"}) {
-      const std::string other = told(method, changed_problem(key));
+      const std::string other = result_text(method, changed_problem(key));
       if (all_ignore({method}, key)) {
         EXPECT_EQ(other, usual) << method.name << ": " << key;
       } else {

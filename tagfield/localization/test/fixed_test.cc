@@ -268,7 +268,7 @@ std::vector<std::vector<FixedReads>> reads_of(const Room& room) {
   return all;
 }
 
-TEST(Fixed, ChannelsToldInAnotherOrderAreFoundOut) {
+TEST(Fixed, ChannelsReportedInAnotherOrderAreFoundOut) {
   Rng rng(8);
   Room made = room(24, {0.3, 3.0, 32.0, 3.0}, rng);
   EXPECT_FALSE(is_out_of_order(reads_of(made)));

@@ -108,10 +108,10 @@ TEST(Joint, IsTheSingleEstimateWhereThePoseIsTrue) {
 TEST(Joint, APauseOfADayChangesEstimatesByLessThanTheirDeviation) {
   made::Noise noise;
   noise.pose_m = 0.02;
-  for (const bool told : {true, false}) {
+  for (const bool stated : {true, false}) {
     made::Rng rng(7);
     made::Hall hall = made::hall(made::aisles(0.02), 8, noise, rng);
-    if (!told) hall.problem.pose_error.reset();
+    if (!stated) hall.problem.pose_error.reset();
     made::Hall paused = hall;
     made::pause(paused, 36.0, 86400.0);
     const LocalizationResult without = run(joint_method(), hall.problem);
@@ -169,16 +169,16 @@ TEST(Joint, GoesOnToAPlaceThatExplainsTheWrappedPhasesFarBetter) {
 TEST(Joint, LearnsTheStrengthOfThePoseError) {
   made::Noise noise;
   noise.pose_m = 0.02;
-  Errors told;
+  Errors stated;
   Errors learnt;
   for (unsigned seed = 1; seed <= 6; ++seed) {
     made::Rng rng(seed);
     made::Hall hall = made::hall(made::aisles(0.02), 8, noise, rng);
-    add(hall, run(joint_method(), hall.problem), told);
+    add(hall, run(joint_method(), hall.problem), stated);
     hall.problem.pose_error.reset();
     add(hall, run(joint_method(), hall.problem), learnt);
   }
-  EXPECT_LT(learnt.mean(), 1.25 * told.mean());
+  EXPECT_LT(learnt.mean(), 1.25 * stated.mean());
 }
 
 TEST(Joint, ReferenceTagsFixTheWorld) {

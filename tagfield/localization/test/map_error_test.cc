@@ -53,12 +53,12 @@ TEST(MapError, IsAsFarAsMapsThatAreShiftedAndTurnedTakeAPlace) {
     squares += off * off.transpose() / kMaps;
   }
   const Candidate& best = result.estimates.front().candidates.front();
-  const Eigen::Matrix2d told = best.covariance->topLeftCorner<2, 2>();
-  EXPECT_NEAR(told(0, 0), squares(0, 0), 0.25 * squares(0, 0));
-  EXPECT_NEAR(told(1, 1), squares(1, 1), 0.25 * squares(1, 1));
-  EXPECT_NEAR(told(0, 1), squares(0, 1), 0.25 * std::sqrt(squares(0, 0) * squares(1, 1)));
-  EXPECT_LT(told(0, 1), -1e-3);  // The arm is slanted.
-  EXPECT_NEAR(best.expected_error_m, std::sqrt(told.trace()), 1e-12);
+  const Eigen::Matrix2d covariance = best.covariance->topLeftCorner<2, 2>();
+  EXPECT_NEAR(covariance(0, 0), squares(0, 0), 0.25 * squares(0, 0));
+  EXPECT_NEAR(covariance(1, 1), squares(1, 1), 0.25 * squares(1, 1));
+  EXPECT_NEAR(covariance(0, 1), squares(0, 1), 0.25 * std::sqrt(squares(0, 0) * squares(1, 1)));
+  EXPECT_LT(covariance(0, 1), -1e-3);  // The arm is slanted.
+  EXPECT_NEAR(best.expected_error_m, std::sqrt(covariance.trace()), 1e-12);
 }
 
 TEST(MapError, APlaceThatIsNoLongerSureEnoughIsNotLocated) {

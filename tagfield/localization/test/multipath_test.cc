@@ -119,12 +119,12 @@ TEST(Multipath, LocatesWhereReflectionsAreNearlyAsStrongAsTheDirectPath) {
 }
 
 TEST(Multipath, EstimatesThePoseErrorToo) {
-  for (const bool told : {true, false}) {
-    const Tally tally = with(multipath_method(), {.pose_m = 0.01, .pose_error_stated = told});
-    EXPECT_GE(tally.errors.size(), 6U) << told;
-    EXPECT_LT(tally.part(0.5), 0.015) << told;
-    EXPECT_EQ(tally.worse_than(0.3), 0U) << told;
-    EXPECT_LT(tally.calibration(), 2.0) << told;
+  for (const bool stated : {true, false}) {
+    const Tally tally = with(multipath_method(), {.pose_m = 0.01, .pose_error_stated = stated});
+    EXPECT_GE(tally.errors.size(), 6U) << stated;
+    EXPECT_LT(tally.part(0.5), 0.015) << stated;
+    EXPECT_EQ(tally.worse_than(0.3), 0U) << stated;
+    EXPECT_LT(tally.calibration(), 2.0) << stated;
   }
 }
 

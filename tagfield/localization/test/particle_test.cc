@@ -71,7 +71,7 @@ TEST(Particle, AgreesWithTheHologram) {
 
 /// With thirty reads 0.3 m apart many positions have about the same likelihood, even more so with
 /// independent pose errors of 3 cm. If these are stated, particles concentrate less.
-TEST(Particle, ClaimsFewerFalsePlacesWherePoseErrorsAreTold) {
+TEST(Particle, ClaimsFewerFalsePlacesWherePoseErrorsAreStated) {
   Rng rng(6);
   Noise noise;
   noise.pose_m = 0.03;
@@ -80,17 +80,17 @@ TEST(Particle, ClaimsFewerFalsePlacesWherePoseErrorsAreTold) {
   options.particles = 600;
   const Method method = particle_method(options);
   const Path path = s_curve(9.0, 0.3);
-  Tally told;
-  Tally untold;
+  Tally stated;
+  Tally unstated;
   for (int i = 0; i < 30; ++i) {
     const Eigen::Vector3d p_WT = beside(path, uniform(rng, 1.0, 4.0), 0.4, rng);
     LocalizationProblem problem = one_tag({{"a", read_along(path, p_WT, noise, rng)}}, 0.4);
-    untold.add(locate_one(method, problem), p_WT);
+    unstated.add(locate_one(method, problem), p_WT);
     problem.pose_error = PoseErrorModel{noise.pose_m, 0.0, 1e-3};
-    told.add(locate_one(method, problem), p_WT);
+    stated.add(locate_one(method, problem), p_WT);
   }
-  EXPECT_GE(untold.worse_than(0.3), 5u);
-  EXPECT_LT(2 * told.worse_than(0.3), untold.worse_than(0.3));
+  EXPECT_GE(unstated.worse_than(0.3), 5u);
+  EXPECT_LT(2 * stated.worse_than(0.3), unstated.worse_than(0.3));
 }
 
 TEST(Particle, TheSeedAndTheTagChooseTheDraws) {

@@ -145,7 +145,7 @@ TEST(Sar, ErrsAsItSaysWhereReadsAreFarApartAndThePoseDrifts) {
 }
 
 // Residuals distinguish fewer lobes than the likelihood under that pose error.
-TEST(Sar, ComparesLobesByTheToldPoseErrorWhereReadsAreFarApart) {
+TEST(Sar, ComparesLobesByTheStatedPoseErrorWhereReadsAreFarApart) {
   Noise noise;
   noise.pose_m = 0.03;
   noise.phase_rad = 0.4;

@@ -119,11 +119,11 @@ TEST(SegmentLikelihood, IsThatOfTheDefinition) {
     for (const Eigen::Vector2d& apart : {Eigen::Vector2d(0, 0), {0.1, -0.2}, {2.0, 1.0}}) {
       Tile x = Tile::Constant(static_cast<float>(p_WT.x() + apart.x() - middle.x()));
       Tile y = Tile::Constant(static_cast<float>(p_WT.y() + apart.y() - middle.y()));
-      const Tile told = segment_likelihood(reads, {k, k}, x, y, Tile::Zero());
+      const Tile likelihood = segment_likelihood(reads, {k, k}, x, y, Tile::Zero());
       const double length = std::min(kShortestSegment * lambda * (1 << k), 2.0 * end);
       const Eigen::Vector3d p = p_WT + Eigen::Vector3d(apart.x(), apart.y(), 0.0);
       const double expected = by_hand(phases, p, length, lambda);
-      EXPECT_NEAR(static_cast<double>(told[0]), expected, 0.01 * expected + 0.05) << k;
+      EXPECT_NEAR(static_cast<double>(likelihood[0]), expected, 0.01 * expected + 0.05) << k;
     }
   }
 }

@@ -32,7 +32,7 @@ TEST(TagFit, FindsTheExactPlaceFromWrappedPhase) {
   EXPECT_LT(fit.cost, 1e-9);
 }
 
-TEST(TagFit, FindsTheHeightOnTheSideThatIsTold) {
+TEST(TagFit, FindsTheHeightOnTheStatedSide) {
   made::Hall hall = hall_of_one_tag(0.0, 1.1, 2);
   hall.problem.heights.of_all.reset();
   for (const HeightSide side : {HeightSide::kAbove, HeightSide::kBelow}) {
@@ -77,7 +77,7 @@ TEST(TagFit, NormalMatrixIsThatOfDifferences) {
   EXPECT_EQ(normal(2, 2), 1.0);
 }
 
-TEST(TagFit, StaysFiniteWhereNothingIsTold) {
+TEST(TagFit, StaysFiniteWhereReadsGiveNoInformation) {
   made::Hall hall = hall_of_one_tag(0.1, 0.4, 4);
   for (PhaseSample& sample : hall.problem.samples["t0"]["a"]) sample.p_WA = {1.0, 1.0, 0.4};
   const TagPhases phases = wrapped(hall);

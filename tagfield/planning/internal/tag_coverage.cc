@@ -152,19 +152,21 @@ class RunForecast {
                 const TagSpec& spec, ForecastTag& tag) const {
     const TimedLink& link = links[i];
     const bool is_paper = physical(request_.ports[port].antenna) == nullptr;
-    ForecastLink told;
-    told.port = port;
+    ForecastLink forecast_link;
+    forecast_link.port = port;
     // Before the first sample and after the last, the poses of that sample hold.
-    told.begin_s = i == 0 ? 0.0 : to_seconds(link.begin);
-    if (i + 1 < links.size()) told.end_s = to_seconds(links[i + 1].begin);
-    told.begin_s = std::max(told.begin_s, to_seconds(spec.appears));
-    if (spec.disappears) told.end_s = std::min(told.end_s, to_seconds(*spec.disappears));
+    forecast_link.begin_s = i == 0 ? 0.0 : to_seconds(link.begin);
+    if (i + 1 < links.size()) forecast_link.end_s = to_seconds(links[i + 1].begin);
+    forecast_link.begin_s = std::max(forecast_link.begin_s, to_seconds(spec.appears));
+    if (spec.disappears) {
+      forecast_link.end_s = std::min(forecast_link.end_s, to_seconds(*spec.disappears));
+    }
     if (is_paper) {
-      told.update_probability = link.update_probability;
-      if (link.update_probability > 0.0) tag.links.push_back(told);
+      forecast_link.update_probability = link.update_probability;
+      if (link.update_probability > 0.0) tag.links.push_back(forecast_link);
     } else if (!link.states.is_empty()) {
-      told.states = &link.states;
-      tag.links.push_back(told);
+      forecast_link.states = &link.states;
+      tag.links.push_back(forecast_link);
     }
   }
 

@@ -65,15 +65,15 @@ std::string swapped_antennas(const FixedScene& scene, const std::vector<std::siz
     const auto exchanged = with_exchanged(scene, some, *pairs[i].first, *pairs[i].second, options);
     evidences[i] = learn_law(exchanged, scene.antennas.size(), options).evidence;
   });
-  const double told = some.size() == numbers.size()
-                          ? scene.law.evidence
-                          : learn_law(grids, scene.antennas.size(), options).evidence;
+  const double as_given = some.size() == numbers.size()
+                              ? scene.law.evidence
+                              : learn_law(grids, scene.antennas.size(), options).evidence;
   const auto best = std::max_element(evidences.begin(), evidences.end());
   if (best == evidences.end()) return "";
   const double by_chance = kMinLogEvidence + std::log(static_cast<double>(pairs.size()));
   // Reflections and unknown lobes also make another order likelier in real rooms, but seldom by as
   // much as the given order explains (docs/methods.md).
-  if (*best - told < std::max(by_chance, told)) return "";
+  if (*best - as_given < std::max(by_chance, as_given)) return "";
   const auto& [one, other] = pairs[static_cast<std::size_t>(best - evidences.begin())];
   return fmt::format("'{}' and '{}'", one->antenna, other->antenna);
 }

@@ -95,8 +95,8 @@ double knot_spacing(const LocalizationProblem& problem, std::size_t tags,
 /// Covariances that come with the poses are used only if no model was given.
 PoseKnots knots_of(const LocalizationProblem& problem, const PoseErrorModel& model,
                    double spacing_s) {
-  const bool told = !problem.pose_error && has_stated_covariances(problem);
-  PoseKnots knots = make_knots(problem, told ? nullptr : &model, spacing_s);
+  const bool uses_covariances = !problem.pose_error && has_stated_covariances(problem);
+  PoseKnots knots = make_knots(problem, uses_covariances ? nullptr : &model, spacing_s);
   knots.time_constant_s = model.time_constant_s;
   return knots;
 }
