@@ -66,10 +66,10 @@ def main():
     while not sim.finished:
         sim._core.step(1000)  # Keeps all reads in C++, so that take() converts them at once.
     begin = time.thread_time()
-    told = sim._core.take()["reads"]
+    taken = sim._core.take()["reads"]
     handed_s = time.thread_time() - begin
-    assert len(told) == len(reads)
-    tell(f"{len(told)} reads handed to NumPy", 1e3 * handed_s, "ms", "   (limit 20 ms)")
+    assert len(taken) == len(reads)
+    tell(f"{len(taken)} reads handed to NumPy", 1e3 * handed_s, "ms", "   (limit 20 ms)")
     tell("the same as a float64 column", 1e3 * seconds(lambda: np.asarray(reads["phase_rad"])), "ms")
     tell("to_pandas()", 1e3 * seconds(reads.to_pandas, 3), "ms")
 

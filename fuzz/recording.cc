@@ -17,9 +17,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     BagOptions options;
     if (data[0] >= 128) options.max_reads = 0;
     const BagRecording bag = read_bag(path, options, unheard);
-    if (!bag.untold) return;
+    if (!bag.unreported) return;
     std::size_t reads = 0;
-    bag.untold->tell({[&reads](const TagRead& /*read*/) { ++reads; }, {}, {}});
-    if (reads != bag.untold->overview.count) std::abort();
+    bag.unreported->tell({[&reads](const TagRead& /*read*/) { ++reads; }, {}, {}});
+    if (reads != bag.unreported->overview.count) std::abort();
   });
 }

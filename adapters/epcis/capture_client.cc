@@ -207,8 +207,8 @@ class CaptureClient::Impl {
     milliseconds silence(0);
     while (!(waiting_.empty() && posted_ == 0) && silence < patience && !(gives_up && gives_up())) {
       const std::uint64_t answers = answers_;
-      const bool is_told = changed_.wait_for(lock, kLook, [&] { return answers_ != answers; });
-      silence = is_told ? milliseconds(0) : silence + kLook;
+      const bool is_answered = changed_.wait_for(lock, kLook, [&] { return answers_ != answers; });
+      silence = is_answered ? milliseconds(0) : silence + kLook;
     }
     const std::size_t left = waiting_.size() + posted_;
     is_ending_ = true;

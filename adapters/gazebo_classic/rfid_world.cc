@@ -211,9 +211,9 @@ void RfidWorld::place_tags(Time now) {
   for (TagGroup& group : groups_) {
     if (!group.link) continue;
     const ignition::math::Pose3d& pose = group.link->WorldPose();
-    if ((group.told && is_same(pose, group.X_WL)) || !pose.IsFinite()) continue;
+    if ((group.placed && is_same(pose, group.X_WL)) || !pose.IsFinite()) continue;
     group.X_WL = pose;
-    group.told = true;
+    group.placed = true;
     const RigidTransform X_WL = from_gazebo(pose);
     for (std::size_t i = 0; i < group.tags.size(); ++i) {
       driver_.place_tag(group.numbers[i], X_WL * group.tags[i].X_LT, now);

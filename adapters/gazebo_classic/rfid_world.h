@@ -93,7 +93,7 @@ class RfidWorld {
     Handle handle = 0;
     TagsOnLink on_link;
     ignition::math::Pose3d X_WL;  ///< As last reported.
-    bool told = false;            ///< Whether its tags have a pose.
+    bool placed = false;          ///< Whether its tags have a pose.
     std::vector<TagOnLink> tags;
     std::vector<std::uint32_t> numbers;
   };

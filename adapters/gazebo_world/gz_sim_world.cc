@@ -217,10 +217,10 @@ class Converter {
 
   static void add_joints(XMLElement* plugin, XMLElement* drive, const char* side) {
     const std::string key = fmt::format("{}_joint", side);
-    const std::vector<XMLElement*> told = children(plugin, key.c_str());
-    for (const XMLElement* const joint : told)
+    const std::vector<XMLElement*> given = children(plugin, key.c_str());
+    for (const XMLElement* const joint : given)
       add(drive, key.c_str(), std::string(joint->GetText()));
-    if (!told.empty()) return;
+    if (!given.empty()) return;
     for (const char* const end : {"front", "rear"}) {
       add(drive, key.c_str(), fmt::format("{}_{}_wheel_joint", end, side));
     }
@@ -232,8 +232,8 @@ class Converter {
     add_joints(plugin, drive, "left");
     add_joints(plugin, drive, "right");
     for (const Wheel& wheel : kWheels) {
-      const XMLElement* const told = plugin->FirstChildElement(wheel.ours);
-      add(drive, wheel.theirs, std::string(told == nullptr ? wheel.otherwise : told->GetText()));
+      const XMLElement* const given = plugin->FirstChildElement(wheel.ours);
+      add(drive, wheel.theirs, std::string(given == nullptr ? wheel.otherwise : given->GetText()));
     }
     add(drive, "frame_id", std::string("odom"));
     add(drive, "child_frame_id", std::string("base_link"));
@@ -241,7 +241,7 @@ class Converter {
     XMLElement* const waypoints = add_system(model, kFile, fmt::format("{}Waypoints", kSystem));
     for (const char* const key : {"path", "speed", "look_ahead", "max_turn", "max_speed",
                                   "max_acceleration", "max_turn_acceleration", "steering_rate"}) {
-      for (XMLElement* const told : children(plugin, key)) waypoints->InsertEndChild(told);
+      for (XMLElement* const element : children(plugin, key)) waypoints->InsertEndChild(element);
     }
     if (options_.stops_at_end && !stops_) add(waypoints, "stop_at_end", std::string("true"));
     stops_ = true;

@@ -242,9 +242,9 @@ void GzField::remove_sensor(Entity sensor) {
 void GzField::place_tags(Time now, const EntityComponentManager& ecm) {
   for (TagGroup& group : groups_) {
     const gz_math::Pose3d pose = gz_sim::worldPose(group.link, ecm);
-    if ((group.is_told && is_same(pose, group.X_WL)) || !pose.IsFinite()) continue;
+    if ((group.is_placed && is_same(pose, group.X_WL)) || !pose.IsFinite()) continue;
     group.X_WL = pose;
-    group.is_told = true;
+    group.is_placed = true;
     const RigidTransform X_WL = from_gazebo(pose);
     for (std::size_t i = 0; i < group.tags.size(); ++i) {
       driver_.place_tag(group.numbers[i], X_WL * group.tags[i].X_LT, now);

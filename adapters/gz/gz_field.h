@@ -43,8 +43,8 @@ class GzField {
   struct TagGroup {
     gz_sim::Entity sensor = gz_sim::kNullEntity;
     gz_sim::Entity link = gz_sim::kNullEntity;
-    gz_math::Pose3d X_WL;  ///< As last reported.
-    bool is_told = false;  ///< Whether its tags have a pose.
+    gz_math::Pose3d X_WL;    ///< As last reported.
+    bool is_placed = false;  ///< Whether its tags have a pose.
     std::vector<TagOnLink> tags;
     std::vector<std::uint32_t> numbers;
   };

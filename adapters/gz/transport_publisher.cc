@@ -157,12 +157,12 @@ void TransportPublisher::on_tag_moved(const TagPosition& tag) {
 }
 
 bool TransportPublisher::are_tags_due(Time stamp) const {
-  return has_changed_ || told_ == Time::min() || stamp - told_ >= kTagsInterval;
+  return has_changed_ || last_sent_ == Time::min() || stamp - last_sent_ >= kTagsInterval;
 }
 
 void TransportPublisher::publish_tags(Time stamp) {
   has_changed_ = false;
-  told_ = stamp;
+  last_sent_ = stamp;
   if (!topics_->tags.HasConnections()) return;
   msgs::TagPositions all;
   set_time(stamp, *all.mutable_stamp());
@@ -182,7 +182,7 @@ void TransportPublisher::on_tags_placed(Time stamp) {
 
 void TransportPublisher::on_restart() {
   updates_.clear();
-  told_ = Time::min();
+  last_sent_ = Time::min();
 }
 
 }  // namespace tagfield

@@ -59,7 +59,7 @@ class TransportPublisher final : public ReadListener, public TruthListener {
   std::map<std::string, Eigen::Vector3d> places_;  ///< By tag.
   std::set<std::string> moved_;
   bool has_changed_ = false;
-  Time told_ = Time::min();  ///< When all tags were last sent.
+  Time last_sent_ = Time::min();  ///< When all tags were last sent.
 };
 
 }  // namespace tagfield

@@ -33,10 +33,10 @@ LaserView::LaserView(const Scene& scene, const Scenario& scenario, std::uint64_t
 
 Json LaserView::scans(const LiveWorld& world, bool needed) {
   const auto wall = std::chrono::steady_clock::now();
-  if (!needed && (world.now() == told_ || wall < told_at_ + kScanEvery)) return nullptr;
-  told_ = world.now();
-  told_at_ = wall;
-  const auto number = static_cast<std::int64_t>(to_seconds(told_) * laser_.rate_hz);
+  if (!needed && (world.now() == sent_ || wall < sent_at_ + kScanEvery)) return nullptr;
+  sent_ = world.now();
+  sent_at_ = wall;
+  const auto number = static_cast<std::int64_t>(to_seconds(sent_) * laser_.rate_hz);
   const auto obstacles = [&](Time stamp) {
     return obstacles_at(world.scenario().obstacles, stamp);
   };

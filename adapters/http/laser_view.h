@@ -27,8 +27,8 @@ class LaserView {
   RayScene rays_;
   LaserParameters laser_;
   std::uint64_t seed_;
-  Time told_{Duration::min()};
-  std::chrono::steady_clock::time_point told_at_{};
+  Time sent_{Duration::min()};                       ///< Simulated time of the last scans.
+  std::chrono::steady_clock::time_point sent_at_{};  ///< Their real time.
 };
 
 }  // namespace tagfield::http

@@ -93,10 +93,10 @@ void LiveFeed::tell_reads(const LiveWorld& world) {
 void LiveFeed::tell_frame(const LiveWorld& world) {
   const Going going{world.now(), world.is_paused(), world.speed(), world.revision()};
   const bool is_new = has_new_client_.exchange(false);
-  const bool has_estimates = estimates_ && estimates_->newest() != estimate_told_;
-  if (going == told_ && last_.empty() && !has_estimates && !is_new) return;
+  const bool has_estimates = estimates_ && estimates_->newest() != estimate_sent_;
+  if (going == sent_ && last_.empty() && !has_estimates && !is_new) return;
   const auto frame = std::make_shared<const std::string>(frame_of(world, going, is_new));
-  told_ = going;
+  sent_ = going;
   last_.clear();
   tell(frame_clients_, has_frame_clients_, frame, &FrameClient::on_frame);
 }
@@ -124,10 +124,10 @@ std::string LiveFeed::frame_of(const LiveWorld& world, const Going& going, bool 
     frame["reads"].push_back({read.tag, read.antenna, read.rssi_dbm, read.phase_rad,
                               read.frequency_hz, to_seconds(read.stamp), last.count});
   }
-  if (going.revision != told_.revision) frame["changed"] = true;
+  if (going.revision != sent_.revision) frame["changed"] = true;
   if (estimates_) {
-    const auto fresh = estimates_->since(is_new ? 0 : estimate_told_);
-    if (!fresh.empty()) estimate_told_ = fresh.back().number;
+    const auto fresh = estimates_->since(is_new ? 0 : estimate_sent_);
+    if (!fresh.empty()) estimate_sent_ = fresh.back().number;
     frame["estimates"] = estimate_rows(fresh);
   }
   if (lasers_) {

@@ -104,9 +104,9 @@ class LiveFeed final : public ReadListener, public LiveMember {
   std::vector<TagRead> fresh_;
   std::map<std::pair<std::string, std::string>, LastRead> last_;  ///< By tag and antenna.
   std::chrono::steady_clock::time_point framed_{};
-  Going told_;
+  Going sent_;  ///< As in the last frame.
   std::shared_ptr<const LiveEstimates> estimates_;
-  std::uint64_t estimate_told_ = 0;
+  std::uint64_t estimate_sent_ = 0;
   std::unique_ptr<LaserView> lasers_;
 };
 

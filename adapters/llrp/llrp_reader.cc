@@ -193,10 +193,10 @@ void LlrpReader::on_custom(LiveWorld& /*world*/, const Message& message) {
 }
 
 void LlrpReader::get_config(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
-  ByteWriter told;
-  write_configuration(configuration_, name_, ports_, ByteReader(message.body), told);
+  ByteWriter parameters;
+  write_configuration(configuration_, name_, ports_, ByteReader(message.body), parameters);
   write_ok(out);
-  out.bytes(told.written());
+  out.bytes(parameters.written());
 }
 
 void LlrpReader::set_config(LiveWorld& world, const Message& message, ByteWriter& out) {

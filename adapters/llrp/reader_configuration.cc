@@ -41,23 +41,23 @@ void read_keepalive(ByteReader content, Duration& keepalive) {
   keepalive = is_periodic ? Duration(every) : Duration{};
 }
 
-void read_parameter(const Parameter& parameter, ReaderConfiguration& told) {
+void read_parameter(const Parameter& parameter, ReaderConfiguration& configuration) {
   ByteReader content = parameter.content;
   switch (parameter.type) {
     case kReaderEventNotificationSpec:
-      return read_events(content, told.events);
+      return read_events(content, configuration.events);
     case kAntennaConfiguration:
-      return read_antenna_setting(content, told.antennas);
+      return read_antenna_setting(content, configuration.antennas);
     case kRoReportSpec:
-      told.report = report_spec_of(content);
+      configuration.report = report_spec_of(content);
       return;
     case kAccessReportSpec:
-      told.access_report = content.u8();
+      configuration.access_report = content.u8();
       return;
     case kKeepaliveSpec:
-      return read_keepalive(content, told.keepalive);
+      return read_keepalive(content, configuration.keepalive);
     case kEventsAndReports:
-      told.holds_reports = (content.u8() & 0x80U) != 0;
+      configuration.holds_reports = (content.u8() & 0x80U) != 0;
       return;
     case kCustomParameter:
       return;  // Vendor settings have no effect in simulation.
@@ -210,9 +210,10 @@ void set_channels(const AntennaSetting& setting, const Ports& ports, const Radio
 
 ReaderConfiguration configured(const ReaderConfiguration& before, ByteReader message) {
   const bool resets = (message.u8() & 0x80U) != 0;
-  ReaderConfiguration told = resets ? ReaderConfiguration{} : before;
-  for (const Parameter& parameter : parameters_of(message)) read_parameter(parameter, told);
-  return told;
+  ReaderConfiguration configuration = resets ? ReaderConfiguration{} : before;
+  for (const Parameter& parameter : parameters_of(message))
+    read_parameter(parameter, configuration);
+  return configuration;
 }
 
 void write_configuration(const ReaderConfiguration& configuration, const std::string& name,

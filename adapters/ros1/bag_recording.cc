@@ -150,7 +150,8 @@ void add_fixed_antennas(const BagRecording& recording, std::vector<AntennaPose>&
 }
 
 bool is_truth_enough(const BagOptions& options, const BagRecording& recording) {
-  return recording.untold && recording.untold->overview.count > options.max_reads_believed &&
+  return recording.unreported &&
+         recording.unreported->overview.count > options.max_reads_believed &&
          !recording.truth.antenna_poses.empty();
 }
 
@@ -198,7 +199,7 @@ BagRecording read_bag(const std::string& path, const BagOptions& options,
   BagContent content = go_through(sink, options.on_progress, diagnostics);
   BagRecording recording;
   held.give(content, recording);
-  if (held.overview()) recording.untold = untold(path, go_through, held);
+  if (held.overview()) recording.unreported = unreported_reads(path, go_through, held);
   recording.duration_s = duration_of(content);
   recording.reads = tidy_reads(std::move(recording.reads), path, diagnostics);
   recording.truth = tidy_truth(std::move(content.truth));

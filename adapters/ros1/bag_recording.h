@@ -27,7 +27,7 @@ struct BagOptions {
   std::optional<double> frequency_hz;
   std::function<void(double share)> on_progress;  ///< Called with 0 … 1, or empty.
   /// If there are more reads or true distances than this, they are not held: see
-  /// BagRecording::untold.
+  /// BagRecording::unreported.
   std::size_t max_reads = std::numeric_limits<std::size_t>::max();
   /// If there are more reads than this, they are not held, and the bag has a truth, then `believed`
   /// stays empty, which saves the memory of a pose per update.
@@ -59,7 +59,7 @@ struct BagRecording {
   std::vector<TagRead> reads;  ///< By stamp, without duplicates.
   /// Set if there are more reads or distances than `max_reads`: then `reads` and the truth's
   /// distances are empty.
-  std::optional<UnreportedReads> untold;
+  std::optional<UnreportedReads> unreported;
   /// At the stamps of all updates of antennas for which a pose is known, and, if they are held, of
   /// reads.
   PoseSet believed;

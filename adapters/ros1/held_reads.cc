@@ -22,10 +22,10 @@ void tell_again(const std::string& path, const GoThrough& go_through, std::size_
                 std::size_t count, const BagReads& to) {
   const Silence silence;
   std::size_t resets_left = resets;
-  std::size_t told = 0;
+  std::size_t passed_on = 0;
   const BagReadSink sink{[&](TagRead&& read, const std::string& /*frame*/) {
                            if (resets_left > 0) return;
-                           ++told;
+                           ++passed_on;
                            if (to.on_read) to.on_read(with_wrapped_phase(std::move(read)));
                          },
                          [&](TrueDistance&& distance) {
@@ -34,10 +34,10 @@ void tell_again(const std::string& path, const GoThrough& go_through, std::size_
                          [&] { resets_left -= resets_left > 0 ? 1 : 0; }, true};
   Diagnostics reported_before;
   go_through(sink, to.on_progress, reported_before);
-  if (told == count) return;
+  if (passed_on == count) return;
   fail({path, 0}, fmt::format("had {} reads at first and {} when they were read again: expected a "
                               "recording that does not change",
-                              count, told));
+                              count, passed_on));
 }
 
 }  // namespace
@@ -79,8 +79,8 @@ void HeldReads::hold_no_more() {
   std::vector<RecordedUpdate>().swap(updates_);
 }
 
-UnreportedReads untold(const std::string& path, const GoThrough& go_through,
-                       const HeldReads& held) {
+UnreportedReads unreported_reads(const std::string& path, const GoThrough& go_through,
+                                 const HeldReads& held) {
   const std::size_t count = held.overview()->count;
   return {*held.overview(), held.has_distances(),
           [path, go_through, resets = held.resets(), count](const BagReads& to) {

@@ -50,6 +50,7 @@ class HeldReads {
 };
 
 /// Access to reads that are not held. `held` has an overview of them.
-UnreportedReads untold(const std::string& path, const GoThrough& go_through, const HeldReads& held);
+UnreportedReads unreported_reads(const std::string& path, const GoThrough& go_through,
+                                 const HeldReads& held);
 
 }  // namespace tagfield

@@ -98,8 +98,8 @@ class RosLink::Clock {
 
   void advance(Time now) {
     const std::lock_guard lock(mutex_);
-    if (!open_ || (now >= told_ && now < told_ + kInterval)) return;
-    told_ = now;
+    if (!open_ || (now >= published_ && now < published_ + kInterval)) return;
+    published_ = now;
     rosgraph_msgs::Clock message;
     message.clock = to_ros(now);
     open_->publish(message);
@@ -112,7 +112,7 @@ class RosLink::Clock {
   bool alone_ = false;
   std::shared_ptr<RosPublisher<rosgraph_msgs::Clock>> topic_;
   std::mutex mutex_;
-  Time told_ = Time::min();
+  Time published_ = Time::min();
   std::shared_ptr<RosPublisher<rosgraph_msgs::Clock>> open_;
 };
 

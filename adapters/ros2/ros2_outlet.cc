@@ -126,9 +126,9 @@ void Ros2Outlet::tell_frame(Time stamp, const geometry_msgs::TransformStamped& f
 }
 
 void Ros2Outlet::tell_fixed_frame(Time stamp, const geometry_msgs::TransformStamped& frame) {
-  const auto [told, is_new] = fixed_.emplace(frame.child_frame_id, frame);
-  if (!is_new && is_same(told->second, frame)) return;
-  told->second = frame;
+  const auto [known, is_new] = fixed_.emplace(frame.child_frame_id, frame);
+  if (!is_new && is_same(known->second, frame)) return;
+  known->second = frame;
   // A latched topic keeps only its last message.
   tf2_msgs::TFMessage all;
   for (const auto& [name, fixed] : fixed_) all.transforms.push_back(fixed);

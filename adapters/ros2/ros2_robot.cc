@@ -66,16 +66,16 @@ void Ros2Robot::on_odometry(const OdometryReport& report) {
   outlet_->tell_time(report.stamp);
   if (reported_ != Time::min()) travel_.add(report, to_seconds(report.stamp - reported_));
   reported_ = report.stamp;
-  if (told_ != Time::min() && report.stamp - told_ < kOdometryInterval) return;
-  told_ = report.stamp;
-  OdometryReport told = report;
-  travel_.take_mean(told);
+  if (published_ != Time::min() && report.stamp - published_ < kOdometryInterval) return;
+  published_ = report.stamp;
+  OdometryReport averaged = report;
+  travel_.take_mean(averaged);
   RobotNames names;
   names.odom = kOdomFrame;
   names.base = kBaseFrame;
-  odometry_.publish(told.stamp, odometry_message(told, names));
-  outlet_->tell_frame(told.stamp,
-                      frame_message(told.stamp, kOdomFrame, kBaseFrame, to_transform(told.pose)));
+  odometry_.publish(averaged.stamp, odometry_message(averaged, names));
+  outlet_->tell_frame(averaged.stamp, frame_message(averaged.stamp, kOdomFrame, kBaseFrame,
+                                                    to_transform(averaged.pose)));
 }
 
 void Ros2Robot::on_scan(const LaserScan& scan) {

@@ -57,7 +57,7 @@ class Ros2Robot : public RemoteControl {
   BodyVelocity command_;
   Time commanded_ = Time::min();
   Time reported_ = Time::min();
-  Time told_ = Time::min();
+  Time published_ = Time::min();
   Travel travel_;
 };
 

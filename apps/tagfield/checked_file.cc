@@ -221,7 +221,7 @@ Json describe_recording(const std::string& path, Diagnostics& diagnostics) {
   options.max_reads = kReadsToReadAnew;
   const BagRecording bag = read_bag(path, options, diagnostics);
   Json json = {{"kind", "recording of ROS"}};
-  add_reads(bag.untold ? bag.untold->overview : overview_of(bag.reads), json);
+  add_reads(bag.unreported ? bag.unreported->overview : overview_of(bag.reads), json);
   json["duration_s"] = bag.duration_s;
   json["believed_poses"] = bag.believed.poses.empty()
                                ? std::string("none")

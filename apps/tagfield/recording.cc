@@ -58,8 +58,8 @@ BagOptions options_of(const BagArguments& arguments) {
 std::string frames_of_reads(const BagRecording& bag) {
   std::set<std::string> antennas;
   for (const TagRead& read : bag.reads) antennas.insert(read.antenna);
-  if (bag.untold) {
-    for (const auto& [antenna, last] : bag.untold->overview.last_by_antenna) {
+  if (bag.unreported) {
+    for (const auto& [antenna, last] : bag.unreported->overview.last_by_antenna) {
       antennas.insert(antenna);
     }
   }
@@ -80,7 +80,7 @@ void choose_poses(const BagArguments& arguments, const BagOptions& options, BagR
     recording.poses = std::move(believed);
     recording.other = truth;
   }
-  if (!recording.poses.poses.empty() || (bag.reads.empty() && !bag.untold)) return;
+  if (!recording.poses.poses.empty() || (bag.reads.empty() && !bag.unreported)) return;
   if (wanted == "true") {
     fail({arguments.bag, 0}, "has no true antenna poses (tagfield_msgs/AntennaTruth)");
   }
@@ -210,8 +210,8 @@ LoadedRecording bag_recording(const BagArguments& arguments, const std::string& 
   choose_poses(arguments, options, bag, recording);
   compare_frames(arguments.bag, bag,
                  recording.poses.name != "true" || !recording.other.poses.empty(), diagnostics);
-  if (bag.untold) {
-    recording.unreported = std::move(bag.untold);
+  if (bag.unreported) {
+    recording.unreported = std::move(bag.unreported);
     take_unreported(arguments, out, references, keep, recording, diagnostics);
   } else {
     recording.reads = std::move(bag.reads);

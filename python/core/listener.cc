@@ -62,7 +62,7 @@ class PythonListener final : public ReadListener, public PoseListener, public Tr
   void on_antenna_pose(const AntennaInfo& /*antenna*/, const AntennaPose& pose) override {
     call(antenna_pose_, pose);
   }
-  // Many may come at once; each is told right before its read.
+  // Many may come at once; each is reported right before its read.
   void on_distance(const TrueDistance& distance) override {
     if (distance_) distances_.push_back(distance);
   }

@@ -213,9 +213,9 @@ py::dict localize(const ReadsArgument& reads, const PosesArgument& poses,
   options.threads = threads;
   options.method = method;
   if (own) options.methods = {*own};
-  const MethodSettings told = settings_of(settings);
-  if (own || !told.empty()) options.settings = told;
-  refuse_unused(told, {find_method(options.methods, method)}, options.methods);
+  const MethodSettings given = settings_of(settings);
+  if (own || !given.empty()) options.settings = given;
+  refuse_unused(given, {find_method(options.methods, method)}, options.methods);
   options.known = known_of(Asked(keywords, "localize"), loaded, tables.reads);
   Localized localized = interruptible(threads, py::none(), [&](const RunControl& control) {
     make_stoppable(control.stop, options.on_locating, options.known.trace);

@@ -32,7 +32,7 @@ class Names {
 struct ReadRow {
   std::int64_t stamp_ns;
   std::int32_t reader, antenna, tag;
-  double frequency_hz, phase_rad, rssi_dbm, doppler_hz;  ///< The last NaN where it is not told.
+  double frequency_hz, phase_rad, rssi_dbm, doppler_hz;  ///< The last NaN where it is not reported.
 };
 
 /// An antenna or a robot.
@@ -41,7 +41,7 @@ struct PoseRow {
   std::int32_t name;
   double position_m[3];
   double quaternion_xyzw[4];
-  double covariance[3][3];  ///< Of x, y, yaw [m², m·rad, rad²]; NaN where it is not told.
+  double covariance[3][3];  ///< Of x, y, yaw [m², m·rad, rad²]; NaN where it is not stated.
 };
 
 struct TagRow {

@@ -25,18 +25,18 @@ struct RunTables {
 ReadRow row_of(const TagRead& read, RunTables& names);
 PoseRow row_of(const AntennaPose& pose, Names& names);
 
-/// Appends all that it is told to tables, which must outlive it.
+/// Appends everything it receives to tables, which must outlive it.
 class TableRecorder final : public ReadListener, public PoseListener, public TruthListener {
  public:
   explicit TableRecorder(RunTables& tables) : tables_(tables) {}
 
   void on_read(const TagRead& read) override { tables_.reads.push_back(row_of(read, tables_)); }
   void on_antenna_removed(const std::string& name) override {
-    told_.forget(name);
+    believed_.forget(name);
     placed_.forget(name);
   }
   void on_pose(const AntennaInfo& antenna, const AntennaPose& pose) override {
-    if (told_.is_new(antenna)) tables_.poses.push_back(row_of(pose, tables_.antennas));
+    if (believed_.is_new(antenna)) tables_.poses.push_back(row_of(pose, tables_.antennas));
   }
   void on_tag_added(const TagPosition& tag, const std::string& label) override;
   void on_tag_moved(const TagPosition& tag) override { on_tag_added(tag, ""); }
@@ -50,7 +50,7 @@ class TableRecorder final : public ReadListener, public PoseListener, public Tru
 
  private:
   RunTables& tables_;
-  FirstPoses told_;
+  FirstPoses believed_;
   FirstPoses placed_;
 };
 

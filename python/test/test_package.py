@@ -40,10 +40,10 @@ def stubs():
 
 
 def test_stubs_are_what_is_there():
-    told = dict(stubs())
+    declared = dict(stubs())
     there = {name for name in dir(_core) if not name.startswith("__")}
-    assert set(told) == there
-    for name, members in told.items():
+    assert set(declared) == there
+    for name, members in declared.items():
         if members is not None and name != "Error":
             assert members == {one for one in vars(getattr(_core, name)) if not one.startswith("_")}, name
 

@@ -121,10 +121,10 @@ def test_complaints_are_the_commands(scenario, change, said):
         scenario.with_(change)
     key, value = next(iter(change.items()))
     path = tagfield.share("scenarios/paper_warehouse.yaml")
-    told = subprocess.run([os.environ["TAGFIELD"], "run", path, "--set", f"{key}={value}"],
-                          capture_output=True, text=True, check=False)
-    assert told.returncode == 2
-    assert told.stderr.strip() == f"tagfield: {raised.value}"
+    completed = subprocess.run([os.environ["TAGFIELD"], "run", path, "--set", f"{key}={value}"],
+                               capture_output=True, text=True, check=False)
+    assert completed.returncode == 2
+    assert completed.stderr.strip() == f"tagfield: {raised.value}"
     assert said in str(raised.value)
     assert "\n" not in str(raised.value)
 

@@ -47,10 +47,10 @@ def test_complaints_name_the_key(keys, said):
 
 
 def test_what_is_odd_is_a_warning_at_the_caller_s_line():
-    with pytest.warns(tagfield.TagfieldWarning, match="pose.sigma_m has no effect with source: true") as told:
+    with pytest.warns(tagfield.TagfieldWarning, match="pose.sigma_m has no effect with source: true") as warned:
         odd = portal().with_({"pose.sigma_m": 0.1})
-    assert [str(one.message) for one in told] == odd.warnings
-    assert told[0].filename == __file__
+    assert [str(one.message) for one in warned] == odd.warnings
+    assert warned[0].filename == __file__
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         portal()

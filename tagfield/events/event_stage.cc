@@ -109,12 +109,12 @@ class EventStage::Impl {
     Updates& updates = updates_[antenna];
     if (updates.last != stamp) updates.before = updates.last;
     updates.last = stamp;
-    std::optional<Time> told;
+    std::optional<Time> reported_until;
     for (const auto& [name, of] : updates_) {
       if (!of.before) return;
-      told = std::min(told.value_or(*of.before), *of.before);
+      reported_until = std::min(reported_until.value_or(*of.before), *of.before);
     }
-    if (told) advance(*told);
+    if (reported_until) advance(*reported_until);
   }
 
   void remove(const std::string& antenna) { updates_.erase(antenna); }

@@ -39,12 +39,12 @@ std::uint32_t FieldDriver::add_tag(const std::string& id, const std::string& lab
 void FieldDriver::place_tag(std::uint32_t number, const RigidTransform& X_WT, Time since) {
   if (!is_finite(X_WT)) return;
   Tag& tag = tags_[number];
-  if (tag.is_told) {
+  if (tag.is_placed) {
     next_.moved.push_back({number, X_WT});
   } else {
     next_.added.push_back({number, tag.id, tag.label, X_WT, tag.model, since});
   }
-  tag.is_told = true;
+  tag.is_placed = true;
 }
 
 void FieldDriver::remove_tag(std::uint32_t number) {
@@ -55,7 +55,7 @@ void FieldDriver::remove_tag(std::uint32_t number) {
   forget(next_.moved, number);
   // Within a step, the field removes tags before it adds others, so a number can be reused
   // immediately.
-  if (tag.is_told && next_.added.size() == added) next_.removed.push_back(number);
+  if (tag.is_placed && next_.added.size() == added) next_.removed.push_back(number);
   tag = {};
   free_numbers_.push_back(number);
 }

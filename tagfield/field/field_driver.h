@@ -59,7 +59,7 @@ class FieldDriver {
     std::string id;
     std::string label;
     std::shared_ptr<const TagModel> model;
-    bool is_told = false;  ///< It has been placed.
+    bool is_placed = false;
   };
   struct Antenna {
     std::shared_ptr<const FieldAntenna> antenna;

@@ -59,12 +59,12 @@ void CsvOutlet::on_antenna_added(const AntennaInfo& antenna) {
 }
 
 void CsvOutlet::on_antenna_removed(const std::string& name) {
-  told_.forget(name);
+  believed_.forget(name);
   placed_.forget(name);
 }
 
 void CsvOutlet::on_pose(const AntennaInfo& antenna, const AntennaPose& pose) {
-  if (told_.is_new(antenna)) add(*poses_, pose, false);
+  if (believed_.is_new(antenna)) add(*poses_, pose, false);
 }
 
 void CsvOutlet::on_tag_added(const TagPosition& tag, const std::string& /*label*/) {

@@ -40,7 +40,7 @@ class CsvOutlet final : public ReadListener, public PoseListener, public TruthLi
   std::shared_ptr<GrowingFile> distances_;
   bool has_doppler_ = false;  ///< An antenna reports it.
   bool has_begun_ = false;    ///< The header of reads.csv is written.
-  FirstPoses told_;
+  FirstPoses believed_;
   FirstPoses placed_;
 };
 

@@ -41,10 +41,10 @@ MemoryBanks::MemoryBanks(const Words& epc, Words tid, std::size_t user_words) {
 
 Words MemoryBanks::epc() const {
   const Words& bank = banks_[number(Bank::kEpc)];
-  const std::size_t told = pc() >> 11U;
+  const std::size_t stated = pc() >> 11U;
   const std::size_t there = bank.size() - kEpcBegins;
   return {bank.begin() + kEpcBegins,
-          bank.begin() + kEpcBegins + static_cast<std::ptrdiff_t>(told < there ? told : there)};
+          bank.begin() + kEpcBegins + static_cast<std::ptrdiff_t>(stated < there ? stated : there)};
 }
 
 std::uint16_t MemoryBanks::crc() const {

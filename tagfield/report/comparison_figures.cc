@@ -36,7 +36,7 @@ std::vector<LegendEntry> both_runs(const RunComparison& comparison) {
           {Symbol::kDot, kDots[1], shortened(comparison.runs[1].name, 30)}};
 }
 
-std::string told(const RunComparison& comparison, const ErrorPair& pair, std::size_t run) {
+std::string described(const RunComparison& comparison, const ErrorPair& pair, std::size_t run) {
   return fmt::format("{}: {} in {}", clean_text(pair.tag),
                      spoken_length(1e-3 * pair.errors_mm[run]),
                      clean_text(comparison.runs[run].name));
@@ -67,7 +67,8 @@ void draw_pairs(Figure& figure, const RunComparison& comparison,
                                        Place(place_on(axes.x, pairs[row].errors_mm[1]), y)};
     add_line(figure.svg, ends[0], ends[1], styled("whisker"));
     for (std::size_t run = 0; run < 2; ++run) {
-      add_circle(figure.svg, ends[run], 5.0, styled(kDots[run]), told(comparison, pairs[row], run));
+      add_circle(figure.svg, ends[run], 5.0, styled(kDots[run]),
+                 described(comparison, pairs[row], run));
     }
   }
 }

@@ -41,11 +41,11 @@ class Recorder final : public ReadListener, public PoseListener, public TruthLis
     for (const ReadBatch::Row& row : batch.rows) recording_.reads.emplace_back(ReadOf{batch, row});
   }
   void on_antenna_removed(const std::string& name) override {
-    told_.forget(name);
+    believed_.forget(name);
     placed_.forget(name);
   }
   void on_pose(const AntennaInfo& antenna, const AntennaPose& pose) override {
-    if (told_.is_new(antenna)) recording_.believed_poses.push_back(pose);
+    if (believed_.is_new(antenna)) recording_.believed_poses.push_back(pose);
   }
   void on_tag_added(const TagPosition& tag, const std::string& /*label*/) override {
     recording_.truth.tag_positions.push_back(tag);
@@ -88,7 +88,7 @@ class Recorder final : public ReadListener, public PoseListener, public TruthLis
   };
 
   Recording& recording_;
-  FirstPoses told_;
+  FirstPoses believed_;
   FirstPoses placed_;
 };
 

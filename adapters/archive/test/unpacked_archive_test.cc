@@ -89,7 +89,7 @@ class Archives : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Archives, AreToldByTheirNames) {
+TEST_F(Archives, AreKnownByTheirNames) {
   for (const char* name : {"a.tar", "x/a.tar.zst", "a.tar.gz", "a.tgz", "a.tar.xz", "a.csv.zst"}) {
     EXPECT_TRUE(is_archive(name)) << name;
   }

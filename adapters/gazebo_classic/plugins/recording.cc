@@ -21,7 +21,7 @@ constexpr const char* kRecordingFile = "TagfieldRecordingPlugin";
 
 /// Reports errors: a failing recording must not end the simulation.
 template <class Task>
-void told_if_it_fails(const Task& task) {
+void run_reporting_errors(const Task& task) {
   try {
     task();
   } catch (const std::exception& error) {
@@ -35,7 +35,7 @@ class Recording : public ros2::MessageSink {
  public:
   explicit Recording(Sinks files) : files_(std::move(files)) {}
   ~Recording() override {
-    told_if_it_fails([this] { files_.finish(); });
+    run_reporting_errors([this] { files_.finish(); });
   }
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
@@ -46,7 +46,7 @@ class Recording : public ros2::MessageSink {
   }
   void publish(std::size_t topic, Time stamp, const void* message) override {
     const std::lock_guard lock(mutex_);
-    told_if_it_fails([&] { files_.publish(topic, stamp, message); });
+    run_reporting_errors([&] { files_.publish(topic, stamp, message); });
   }
 
  private:
@@ -59,7 +59,7 @@ Sinks files_of(gazebo::physics::World& world) {
   for (const sdf::ElementPtr& plugin : children(world.SDF(), "plugin")) {
     if (plugin->Get<std::string>("filename").find(kRecordingFile) == std::string::npos) continue;
     for (const sdf::ElementPtr& file : children(plugin, "mcap")) {
-      told_if_it_fails([&] { files.push_back(ros2::mcap_file(file->Get<std::string>())); });
+      run_reporting_errors([&] { files.push_back(ros2::mcap_file(file->Get<std::string>())); });
     }
   }
   return files;

@@ -65,9 +65,10 @@ class FrameSession final : public FrameClient, public std::enable_shared_from_th
   std::shared_ptr<const std::string> next() {
     const std::lock_guard<std::mutex> guard(lock_);
     if (dropped_ > 0) {
-      auto told = std::make_shared<const std::string>(fmt::format("{{\"dropped\":{}}}", dropped_));
+      auto message =
+          std::make_shared<const std::string>(fmt::format("{{\"dropped\":{}}}", dropped_));
       dropped_ = 0;
-      return told;
+      return message;
     }
     is_woken_ = !frames_.empty();
     if (!is_woken_) return nullptr;

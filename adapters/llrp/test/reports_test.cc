@@ -110,7 +110,7 @@ TEST(Reports, ReadsOfOneTagAddUp) {
   EXPECT_TRUE(gathering.take().empty());
 }
 
-TEST(Reports, AntennasThatAreNotToldMakeNoDifference) {
+TEST(Reports, AntennasThatAreNotReportedMakeNoDifference) {
   ReportSpec spec = nothing_selected();
   ReportGathering gathering(spec);
   gathering.add(report_of(1));

@@ -100,7 +100,7 @@ std::set<std::size_t> lost_chunks(const Whole& whole, const std::vector<Sent>& f
   return lost;
 }
 
-TEST_P(McapDamage, AWrongByteCostsOneChunkAtMostAndIsToldOf) {
+TEST_P(McapDamage, AWrongByteCostsOneChunkAtMostAndIsReported) {
   const Whole whole = whole_file(GetParam());
   for (std::size_t at = 0; at < whole.file.size(); ++at) {
     for (const unsigned flip : {0x01U, 0x05U, 0x80U, 0xFFU}) {

@@ -240,22 +240,22 @@ TEST(McapReader, TellsTheMessagesThatAreWanted) {
   const std::string file = file_of(begin + unwanted + end);
   Diagnostics diagnostics;
   McapReader reader(folder.with("f", file), diagnostics);
-  const auto told = [&reader](const std::set<McapChannelId>& wanted) {
+  const auto texts_of = [&reader](const std::set<McapChannelId>& wanted) {
     Texts texts;
     reader.read(wanted, [&](const McapMessage& message) { texts.emplace_back(message.bytes); });
     return texts;
   };
-  EXPECT_EQ(told({1}), (Texts{"1", "5", "7", "9"}));
-  EXPECT_EQ(told({2}), (Texts{"2", "3", "6", large}));
-  EXPECT_EQ(told({1, 2}), (Texts{"1", "2", "3", "5", "6", "7", large, "9"}));
-  EXPECT_EQ(told({}), Texts{});
-  EXPECT_EQ(told({3}), Texts{});
+  EXPECT_EQ(texts_of({1}), (Texts{"1", "5", "7", "9"}));
+  EXPECT_EQ(texts_of({2}), (Texts{"2", "3", "6", large}));
+  EXPECT_EQ(texts_of({1, 2}), (Texts{"1", "2", "3", "5", "6", "7", large, "9"}));
+  EXPECT_EQ(texts_of({}), Texts{});
+  EXPECT_EQ(texts_of({3}), Texts{});
   // A chunk without wanted messages is not read again.
   std::string changed = file;
   changed[changed.find(unwanted) + unwanted.size() - 1] ^= 1;
   (void)folder.with("f", changed);
-  EXPECT_EQ(told({1}), (Texts{"1", "5", "7", "9"}));
-  EXPECT_TRUE(contains(error_of([&] { told({2}); }), "changed"));
+  EXPECT_EQ(texts_of({1}), (Texts{"1", "5", "7", "9"}));
+  EXPECT_TRUE(contains(error_of([&] { texts_of({2}); }), "changed"));
 }
 
 TEST(McapReader, NoticesThatTheFileWasChanged) {

@@ -14,7 +14,7 @@ namespace {
 using namespace mcap_test;
 
 /// What a test writes: channels, and messages in the order of writing.
-struct Told {
+struct Written {
   std::vector<McapChannel> channels;
   std::vector<Sent> messages;
 };
@@ -27,17 +27,17 @@ rc::Gen<std::string> bytes(int most) {
 }
 
 /// Writes a random number of channels and messages; times are often equal, and in no order.
-Told write_any(const std::string& path, const McapOptions& options) {
-  Told told;
+Written write_any(const std::string& path, const McapOptions& options) {
+  Written written;
   McapWriter writer(path, options);
   std::vector<McapChannelId> ids;
   std::vector<std::uint32_t> sequences;
   const int steps = *rc::gen::inRange(0, 60);
   for (int step = 0; step < steps; ++step) {
     if (ids.empty() || *rc::gen::inRange(0, 8) == 0) {
-      told.channels.push_back(channel_of("/" + std::to_string(ids.size())));
-      told.channels.back().metadata[*bytes(9)] = *bytes(9);
-      ids.push_back(writer.add_channel(told.channels.back()));
+      written.channels.push_back(channel_of("/" + std::to_string(ids.size())));
+      written.channels.back().metadata[*bytes(9)] = *bytes(9);
+      ids.push_back(writer.add_channel(written.channels.back()));
       sequences.push_back(0);
       continue;
     }
@@ -47,11 +47,11 @@ Told write_any(const std::string& path, const McapOptions& options) {
     const auto published = *rc::gen::arbitrary<std::uint64_t>();
     const std::string data = *bytes(300);
     writer.write(ids[channel], time, published, data);
-    told.messages.emplace_back(told.channels[channel].topic, sequences[channel]++, time, published,
-                               data);
+    written.messages.emplace_back(written.channels[channel].topic, sequences[channel]++, time,
+                                  published, data);
   }
   writer.finish();
-  return told;
+  return written;
 }
 
 McapOptions any_options() {
@@ -66,16 +66,16 @@ McapOptions any_options() {
 RC_GTEST_PROP(McapRoundTrip, GivesBackAllThatWasWritten, ()) {
   const TemporaryFolder folder;
   const McapOptions options = any_options();
-  const Told told = write_any(folder.file("f"), options);
+  const Written written = write_any(folder.file("f"), options);
   Diagnostics diagnostics;
-  RC_ASSERT(read_all(folder.file("f"), diagnostics) == in_order_of_time(told.messages));
+  RC_ASSERT(read_all(folder.file("f"), diagnostics) == in_order_of_time(written.messages));
   const McapReader reader(folder.file("f"), diagnostics);
   RC_ASSERT(diagnostics.warnings().empty());
   RC_ASSERT(reader.profile() == options.profile);
-  RC_ASSERT(reader.channels().size() == told.channels.size());
-  RC_ASSERT(reader.schemas().size() == told.channels.size());
+  RC_ASSERT(reader.channels().size() == written.channels.size());
+  RC_ASSERT(reader.schemas().size() == written.channels.size());
   for (const auto& [id, channel] : reader.channels()) {
-    const McapChannel& expected = told.channels.at(id - 1U);
+    const McapChannel& expected = written.channels.at(id - 1U);
     RC_ASSERT(channel.topic == expected.topic);
     RC_ASSERT(channel.message_encoding == expected.message_encoding);
     RC_ASSERT(channel.metadata == expected.metadata);
@@ -83,7 +83,7 @@ RC_GTEST_PROP(McapRoundTrip, GivesBackAllThatWasWritten, ()) {
     RC_ASSERT(channel.schema->encoding == expected.schema->encoding);
     RC_ASSERT(channel.schema->text == expected.schema->text);
     const auto count =
-        std::count_if(told.messages.begin(), told.messages.end(),
+        std::count_if(written.messages.begin(), written.messages.end(),
                       [&](const Sent& m) { return std::get<0>(m) == expected.topic; });
     RC_ASSERT(reader.message_count(id) == static_cast<std::uint64_t>(count));
   }
@@ -92,11 +92,12 @@ RC_GTEST_PROP(McapRoundTrip, GivesBackAllThatWasWritten, ()) {
 RC_GTEST_PROP(McapRoundTrip, WhenChannelsAreAddedDoesNotMatter, ()) {
   const TemporaryFolder folder;
   const McapOptions options = any_options();
-  const Told told = write_any(folder.file("f"), options);
+  const Written written = write_any(folder.file("f"), options);
   McapWriter writer(folder.file("g"), options);
   std::map<std::string, McapChannelId> ids;
-  for (const McapChannel& channel : told.channels) ids[channel.topic] = writer.add_channel(channel);
-  for (const auto& [topic, sequence, time, published, data] : told.messages) {
+  for (const McapChannel& channel : written.channels)
+    ids[channel.topic] = writer.add_channel(channel);
+  for (const auto& [topic, sequence, time, published, data] : written.messages) {
     writer.write(ids.at(topic), time, published, data);
   }
   writer.finish();
@@ -178,7 +179,7 @@ RC_GTEST_PROP(McapIndex, IsWhatAScanOfAllRecordsFinds, ()) {
   const TemporaryFolder folder;
   McapOptions options = any_options();
   options.compression = McapCompression::kNone;
-  const Told told = write_any(folder.file("f"), options);
+  const Written written = write_any(folder.file("f"), options);
   const std::string file = folder.text_of("f");
   const std::vector<RecordThere> all = records_of_file(file);
   const std::vector<RecordThere> indexes = of_op(all, 8);
@@ -189,7 +190,7 @@ RC_GTEST_PROP(McapIndex, IsWhatAScanOfAllRecordsFinds, ()) {
     if (all[at].op == 15) data_end = at;
   }
   RC_ASSERT(indexes.size() == totals.chunks);
-  RC_ASSERT(totals.messages == told.messages.size());
+  RC_ASSERT(totals.messages == written.messages.size());
   const std::uint64_t end = all.at(data_end).offset;
   RC_ASSERT(number_at(all[data_end].content, 0, 4) == crc(std::string_view(file).substr(0, end)));
 
@@ -197,14 +198,14 @@ RC_GTEST_PROP(McapIndex, IsWhatAScanOfAllRecordsFinds, ()) {
       std::find_if(all.begin(), all.end(), [](const RecordThere& r) { return r.op == 14; });
   check_offsets({all.begin() + static_cast<std::ptrdiff_t>(data_end) + 1, offsets}, all);
   std::string counts;
-  for (std::size_t id = 1; id <= told.channels.size(); ++id) {
+  for (std::size_t id = 1; id <= written.channels.size(); ++id) {
     counts += le(id, 2) + le(totals.of_channel[id], 8);
   }
   if (totals.messages == 0) totals.first = 0;
-  RC_ASSERT(of_op(all, 11).at(0).content == le(totals.messages, 8) + le(told.channels.size(), 2) +
-                                                le(told.channels.size(), 4) + le(0, 8) +
-                                                le(totals.chunks, 4) + le(totals.first, 8) +
-                                                le(totals.last, 8) + text(counts));
+  RC_ASSERT(of_op(all, 11).at(0).content ==
+            le(totals.messages, 8) + le(written.channels.size(), 2) +
+                le(written.channels.size(), 4) + le(0, 8) + le(totals.chunks, 4) +
+                le(totals.first, 8) + le(totals.last, 8) + text(counts));
   const std::uint64_t start = all.at(data_end + 1).offset;
   const RecordThere& footer = all.back();
   RC_ASSERT(footer.op == 2);

@@ -63,8 +63,8 @@ class DrivingNode {
   GoalStatus status_;
   bool is_under_way_ = false;
   std::uint64_t goals_ = 0;
-  std::vector<Eigen::Vector2d> told_plan_;
-  ros::Time told_status_;
+  std::vector<Eigen::Vector2d> reported_plan_;
+  ros::Time reported_status_;
   TimeWatch time_;
   ros::Publisher command_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
   ros::Publisher plan_ = private_.advertise<nav_msgs::Path>("plan", 1, true);
@@ -143,7 +143,7 @@ void DrivingNode::begin_anew() {
   scans_.forget();
   if (is_under_way_) end_goal(GoalStatus::ABORTED, "time went back");
   driver_.reset();
-  told_status_ = {};
+  reported_status_ = {};
 }
 
 void DrivingNode::on_scan(const LocatedScan& located) {
@@ -225,7 +225,7 @@ void DrivingNode::on_tick() {
     }
     tell_plan();
   }
-  const bool is_due = (now - told_status_).toSec() >= kStatusInterval;
+  const bool is_due = (now - reported_status_).toSec() >= kStatusInterval;
   if (is_due && !status_.goal_id.id.empty()) publish_status();
 }
 
@@ -254,17 +254,17 @@ void DrivingNode::end_goal(std::uint8_t status, const std::string& text) {
 void DrivingNode::stand() { command_.publish(geometry_msgs::Twist{}); }
 
 void DrivingNode::publish_status() {
-  told_status_ = ros::Time::now();
+  reported_status_ = ros::Time::now();
   actionlib_msgs::GoalStatusArray message;
-  message.header.stamp = told_status_;
+  message.header.stamp = reported_status_;
   message.status_list.push_back(status_);
   statuses_.publish(message);
 }
 
 void DrivingNode::tell_plan() {
-  if (driver_->path() == told_plan_) return;
-  told_plan_ = driver_->path();
-  plan_.publish(path_message(told_plan_, names_.map, ros::Time::now()));
+  if (driver_->path() == reported_plan_) return;
+  reported_plan_ = driver_->path();
+  plan_.publish(path_message(reported_plan_, names_.map, ros::Time::now()));
 }
 
 }  // namespace

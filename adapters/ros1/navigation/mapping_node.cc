@@ -40,7 +40,7 @@ class MappingNode {
   std::string map_file_ = parameters_.text("map_file", "");
   int seed_ = parameters_.count("seed", 1);
   std::optional<GridMapper> mapper_;
-  std::optional<Time> told_;
+  std::optional<Time> published_;
   bool is_changed_ = false;
   TimeWatch time_;
   MapFrameTeller frame_teller_{node_, names_};
@@ -79,7 +79,7 @@ void MappingNode::begin_anew() {
   frames_.forget();
   scans_.forget();
   mapper_.reset();
-  told_.reset();
+  published_.reset();
 }
 
 void MappingNode::on_frames() {
@@ -96,8 +96,8 @@ void MappingNode::on_scan(const LocatedScan& located) {
   const Time now = located.scan.stamp;
   frame_teller_.tell(mapper_->pose_at(located.odometry), located.odometry,
                      now + duration_from_seconds(delay_s_));
-  if (!is_changed_ || (told_ && to_seconds(now - *told_) < interval_s_)) return;
-  told_ = now;
+  if (!is_changed_ || (published_ && to_seconds(now - *published_) < interval_s_)) return;
+  published_ = now;
   tell_map();
 }
 

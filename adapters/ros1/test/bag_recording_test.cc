@@ -264,7 +264,7 @@ TEST(ReadBag, TakesTagArraysWhereThereAreNoTagReads) {
   EXPECT_LT((estimates[0].candidates[0].p_WT - kTag).norm(), 1e-3);
 }
 
-TEST(ReadBag, TakesTheFrequencyOfTagArraysThatItIsTold) {
+TEST(ReadBag, TakesTheFrequencyOfTagArraysThatItIsGiven) {
   Diagnostics diagnostics;
   BagOptions options;
   options.frequency_hz = 915e6;
@@ -316,11 +316,12 @@ TEST(ReadBag, WarnsOfReadsThatRepeatAnother) {
 }
 
 /// All reads and distances that are not held.
-BagRecording told(const BagRecording& bag) {
+BagRecording read_again(const BagRecording& bag) {
   BagRecording all;
-  bag.untold->tell({[&](const TagRead& read) { all.reads.push_back(read); },
-                    [&](const TrueDistance& distance) { all.truth.distances.push_back(distance); },
-                    {}});
+  bag.unreported->tell(
+      {[&](const TagRead& read) { all.reads.push_back(read); },
+       [&](const TrueDistance& distance) { all.truth.distances.push_back(distance); },
+       {}});
   return all;
 }
 
@@ -331,21 +332,21 @@ TEST(ReadBag, TellsReadsThatAreTooManyToBeHeld) {
     write_turn(writer);
   }
   const BagRecording held = recording_of(bag_in(folder));
-  ASSERT_FALSE(held.untold);
+  ASSERT_FALSE(held.unreported);
   BagOptions options;
   options.max_reads = 190;
-  EXPECT_FALSE(recording_of(bag_in(folder), options).untold);
+  EXPECT_FALSE(recording_of(bag_in(folder), options).unreported);
   options.max_reads = 189;
   const BagRecording bag = recording_of(bag_in(folder), options);
-  ASSERT_TRUE(bag.untold);
+  ASSERT_TRUE(bag.unreported);
   EXPECT_TRUE(bag.reads.empty());
   EXPECT_TRUE(bag.truth.distances.empty());
-  EXPECT_TRUE(bag.untold->has_distances);
-  EXPECT_EQ(bag.untold->overview.count, 190U);
-  EXPECT_EQ(bag.untold->overview.tags, std::vector<std::string>{"tag"});
-  EXPECT_EQ(bag.untold->overview.last, held.reads.back().stamp);
+  EXPECT_TRUE(bag.unreported->has_distances);
+  EXPECT_EQ(bag.unreported->overview.count, 190U);
+  EXPECT_EQ(bag.unreported->overview.tags, std::vector<std::string>{"tag"});
+  EXPECT_EQ(bag.unreported->overview.last, held.reads.back().stamp);
   for (int times = 0; times < 2; ++times) {
-    const BagRecording all = told(bag);
+    const BagRecording all = read_again(bag);
     EXPECT_EQ(reads_to_csv(all.reads), reads_to_csv(held.reads));
     ASSERT_EQ(all.truth.distances.size(), held.truth.distances.size());
     for (std::size_t i = 0; i < all.truth.distances.size(); ++i) {
@@ -381,13 +382,13 @@ TEST(ReadBag, TellsOnlyReadsAfterTheLastReset) {
     }
   }
   const BagRecording bag = recording_of(bag_in(folder), options);
-  ASSERT_TRUE(bag.untold);
-  EXPECT_EQ(bag.untold->overview.count, 3U);
-  const std::vector<TagRead> reads = told(bag).reads;
+  ASSERT_TRUE(bag.unreported);
+  EXPECT_EQ(bag.unreported->overview.count, 3U);
+  const std::vector<TagRead> reads = read_again(bag).reads;
   ASSERT_EQ(reads.size(), 3U);
   EXPECT_EQ(reads.front().stamp, at(0.25));
   EXPECT_EQ(reads.back().stamp, at(2.25));
-  EXPECT_FALSE(bag.untold->has_distances);
+  EXPECT_FALSE(bag.unreported->has_distances);
 }
 
 TEST(ReadBag, RefusesABagThatHasOtherReadsTheSecondTime) {
@@ -402,9 +403,9 @@ TEST(ReadBag, RefusesABagThatHasOtherReadsTheSecondTime) {
   };
   write(3);
   const BagRecording bag = recording_of(bag_in(folder), options);
-  ASSERT_TRUE(bag.untold);
+  ASSERT_TRUE(bag.unreported);
   write(2);
-  const std::string message = error_of([&] { told(bag); });
+  const std::string message = error_of([&] { read_again(bag); });
   EXPECT_TRUE(contains(message, "run.bag: had 3 reads at first and 2 when they were read again"))
       << message;
 }

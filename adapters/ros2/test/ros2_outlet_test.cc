@@ -103,7 +103,7 @@ TEST(Ros2Outlet, TellsReadsAndTheTruthApart) {
   EXPECT_EQ(truth[0].pose.position.y, 2.0);
 }
 
-TEST(Ros2Outlet, UpdatesWithoutReadsAreToldToo) {
+TEST(Ros2Outlet, UpdatesWithoutReadsAreReportedToo) {
   const auto kept = std::make_shared<Kept>();
   Ros2Outlet outlet(kept);
   outlet.on_update(antenna_called("mobile", false), at(1));
@@ -143,7 +143,7 @@ TEST(Ros2Outlet, TheClockNeverStandsOrFalls) {
   EXPECT_EQ(clock[1].clock.sec, 2);
 }
 
-TEST(Ros2Outlet, TagsAreLatchedAndMovesAreTold) {
+TEST(Ros2Outlet, TagsAreLatchedAndMovesAreReported) {
   const auto kept = std::make_shared<Kept>();
   Ros2Outlet outlet(kept);
   outlet.on_tag_added({at(0), "a", {1, 2, 3}}, "");
@@ -290,17 +290,17 @@ TEST(RobotTopics, AreThoseOfItsNamespaceAndHangBelowTheMap) {
   topics.publish(ScanReport{at(1), -1.0, 1.0, 0.05, 0.1, 30.0, {1.0F, 2.0F, 3.0F}});
   topics.publish_fixed_frames(at(1), from_translation({0.2, 0, 0}), from_translation({5, 0, 0}));
 
-  const auto told = kept->of<nav_msgs::Odometry>("/hall/cart_1/odom").at(0);
-  EXPECT_EQ(told.header.frame_id, "odom");
-  EXPECT_EQ(told.child_frame_id, "base_link");
-  EXPECT_EQ(told.twist.twist.linear.x, 0.5);
+  const auto published = kept->of<nav_msgs::Odometry>("/hall/cart_1/odom").at(0);
+  EXPECT_EQ(published.header.frame_id, "odom");
+  EXPECT_EQ(published.child_frame_id, "base_link");
+  EXPECT_EQ(published.twist.twist.linear.x, 0.5);
   // Of x, y and yaw, which are the first two and the sixth of six.
-  const auto& covariance = told.pose.covariance;
+  const auto& covariance = published.pose.covariance;
   EXPECT_EQ((std::array{covariance[0], covariance[1], covariance[5]}), (std::array{1.0, 2.0, 3.0}));
   EXPECT_EQ((std::array{covariance[30], covariance[31], covariance[35]}),
             (std::array{7.0, 8.0, 9.0}));
-  EXPECT_EQ(told.twist.covariance[0], 0.1);
-  EXPECT_EQ(told.twist.covariance[35], 0.2);
+  EXPECT_EQ(published.twist.covariance[0], 0.1);
+  EXPECT_EQ(published.twist.covariance[35], 0.2);
   const auto truth = kept->of<nav_msgs::Odometry>("/hall/cart_1/ground_truth/odom").at(0);
   EXPECT_EQ(truth.header.frame_id, "map");
   EXPECT_EQ(truth.pose.pose.position.z, 3.0);

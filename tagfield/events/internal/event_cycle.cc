@@ -133,12 +133,13 @@ std::optional<CycleReport> EventCycle::report(std::size_t index) {
   }
   Tags& before = before_[index];
   const bool is_changed = !has_same_ids(current, before);
-  Tags told = current;
-  if (spec.set == ReportSet::kAdditions) told = without(current, before);
-  if (spec.set == ReportSet::kDeletions) told = without(before, current);
+  Tags reported = current;
+  if (spec.set == ReportSet::kAdditions) reported = without(current, before);
+  if (spec.set == ReportSet::kDeletions) reported = without(before, current);
   before = std::move(current);
-  if ((told.empty() && !spec.if_empty) || (spec.only_on_change && !is_changed)) return std::nullopt;
-  return CycleReport{spec.name, spec.set, grouped(told, spec.groups)};
+  if ((reported.empty() && !spec.if_empty) || (spec.only_on_change && !is_changed))
+    return std::nullopt;
+  return CycleReport{spec.name, spec.set, grouped(reported, spec.groups)};
 }
 
 void EventCycle::end(Time at, CycleEnd why, EventListener& listener) {

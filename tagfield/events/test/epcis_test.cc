@@ -38,8 +38,8 @@ PresenceEvent observed() {
   return event;
 }
 
-std::vector<std::string> told(const EventsSpec& spec, const PresenceEvent& event,
-                              bool has_context = false) {
+std::vector<std::string> json_of(const EventsSpec& spec, const PresenceEvent& event,
+                                 bool has_context = false) {
   std::vector<std::string> all;
   EpcisEvents events(spec, utc_from_text("2020-01-01"), has_context,
                      [&all](const std::string& json) { all.push_back(json); });
@@ -49,7 +49,7 @@ std::vector<std::string> told(const EventsSpec& spec, const PresenceEvent& event
 
 TEST(EpcisEvents, SayWhatWasSeenWhereWhenAndWhy) {
   EXPECT_EQ(
-      told(spec_of_a_dock(), observed()),
+      json_of(spec_of_a_dock(), observed()),
       (std::vector<std::string>{
           R"({"type":"ObjectEvent","action":"OBSERVE",)"
           R"("eventTime":"2020-01-01T01:00:01.500000+01:00","eventTimeZoneOffset":"+01:00",)"
@@ -63,16 +63,16 @@ TEST(EpcisEvents, TellOfWhatIsGoneWhereThereIsAStepForIt) {
   EventsSpec spec = spec_of_a_dock();
   PresenceEvent event = observed();
   event.change = PresenceChange::kGone;
-  EXPECT_TRUE(told(spec, event).empty());
+  EXPECT_TRUE(json_of(spec, event).empty());
   spec.epcis.otherwise.gone_biz_step = "departing";
-  ASSERT_EQ(told(spec, event).size(), 1U);
-  EXPECT_NE(told(spec, event)[0].find(R"("bizStep":"departing")"), std::string::npos);
+  ASSERT_EQ(json_of(spec, event).size(), 1U);
+  EXPECT_NE(json_of(spec, event)[0].find(R"("bizStep":"departing")"), std::string::npos);
   event.change = PresenceChange::kGlimpsed;
-  EXPECT_TRUE(told(spec, event).empty());
+  EXPECT_TRUE(json_of(spec, event).empty());
 }
 
 TEST(EpcisEvents, StandAloneWithTheirContext) {
-  const std::string line = told(spec_of_a_dock(), observed(), true).at(0);
+  const std::string line = json_of(spec_of_a_dock(), observed(), true).at(0);
   EXPECT_TRUE(line.starts_with(R"({"@context":["https://ref.gs1.org/standards/epcis/2.0.0/)"))
       << line;
   EXPECT_EQ(line.find('\n'), std::string::npos);
@@ -81,7 +81,7 @@ TEST(EpcisEvents, StandAloneWithTheirContext) {
 TEST(EpcisEvents, AreMadeOfReportsWhereThatIsAskedFor) {
   EventsSpec spec = spec_of_a_dock();
   spec.epcis.source = EpcisSource::kReports;
-  EXPECT_TRUE(told(spec, observed()).empty());
+  EXPECT_TRUE(json_of(spec, observed()).empty());
   std::vector<std::string> all;
   EpcisEvents events(spec, Time{}, false, [&all](const std::string& json) { all.push_back(json); });
   CycleReports reports;

@@ -276,10 +276,10 @@ RC_GTEST_PROP(EventStage, TellsPresenceAsALookAtAllReadsDoes, ()) {
     const Lines lines = naive_presence(tag, of, spec.presence, time_from_seconds(end));
     expected.insert(expected.end(), lines.begin(), lines.end());
   }
-  Lines told = log->presence;
-  std::sort(told.begin(), told.end());
+  Lines reported = log->presence;
+  std::sort(reported.begin(), reported.end());
   std::sort(expected.begin(), expected.end());
-  RC_ASSERT(told == expected);
+  RC_ASSERT(reported == expected);
   RC_ASSERT(std::is_sorted(
       log->events.begin(), log->events.end(),
       [](const PresenceEvent& a, const PresenceEvent& b) { return a.stamp < b.stamp; }));
@@ -313,12 +313,13 @@ RC_GTEST_PROP(EventStage, TellsAdditionsAndDeletionsAsSetsDo, ()) {
     if (!added.empty() || !gone.empty()) expected.push_back(line);
     before = now;
   }
-  Lines told = log_of(with(cycle), reads, 22.0)->cycles;
-  told.erase(std::remove_if(
-                 told.begin(), told.end(),
-                 [](const std::string& line) { return line.find(" cut:") != std::string::npos; }),
-             told.end());
-  RC_ASSERT(told == expected);
+  Lines reported = log_of(with(cycle), reads, 22.0)->cycles;
+  reported.erase(std::remove_if(reported.begin(), reported.end(),
+                                [](const std::string& line) {
+                                  return line.find(" cut:") != std::string::npos;
+                                }),
+                 reported.end());
+  RC_ASSERT(reported == expected);
 }
 
 }  // namespace

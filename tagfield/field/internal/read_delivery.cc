@@ -48,10 +48,10 @@ void ReadDelivery::add_placed(Time stamp) { push(stamp, Placed{}); }
 void ReadDelivery::add_robot(const AntennaPose& robot) { push(robot.stamp, robot); }
 
 void ReadDelivery::tell(Time /*stamp*/, const Read& read) const {
-  const TagRead& told = read.read;
-  const TrueDistance distance{told.stamp, told.antenna, told.tag, read.distance_m};
+  const TagRead& delivered = read.read;
+  const TrueDistance distance{delivered.stamp, delivered.antenna, delivered.tag, read.distance_m};
   for (const auto& listener : outlets_.truth) listener->on_distance(distance);
-  for (const auto& listener : outlets_.reads) listener->on_read(told);
+  for (const auto& listener : outlets_.reads) listener->on_read(delivered);
 }
 
 /// At most a few hundred reads, so that all data is still in the cache when the listeners get it.

@@ -83,7 +83,7 @@ TEST(FieldDriver, AntennasAreDueByTheirRates) {
   EXPECT_EQ(driver.next_due(), at(0.0));
 }
 
-TEST(FieldDriver, StampsThatAreToldGoBeforeTheRateAndEnd) {
+TEST(FieldDriver, StampsThatAreGivenGoBeforeTheRateAndEnd) {
   FieldDriver driver;
   const auto replayed = antenna("replayed", 10.0);
   driver.add_antenna(replayed);
@@ -98,7 +98,7 @@ TEST(FieldDriver, StampsThatAreToldGoBeforeTheRateAndEnd) {
 RC_GTEST_PROP(FieldDriver, StepsAddUpToWhatIsThere, ()) {
   FieldDriver driver;
   std::map<std::string, std::uint32_t> present;
-  std::map<std::uint32_t, std::pair<std::string, double>> told;
+  std::map<std::uint32_t, std::pair<std::string, double>> reported;
   std::map<std::string, double> places;
   int made = 0;
   for (int n = 0; n < 12; ++n) {
@@ -121,13 +121,14 @@ RC_GTEST_PROP(FieldDriver, StepsAddUpToWhatIsThere, ()) {
       }
     }
     const FieldStep step = driver.take_step(at(n));
-    for (const std::uint32_t number : step.removed) RC_ASSERT(told.erase(number) == 1U);
+    for (const std::uint32_t number : step.removed) RC_ASSERT(reported.erase(number) == 1U);
     for (const TagAdded& tag : step.added) {
-      RC_ASSERT(told.emplace(tag.number, std::pair(tag.id, tag.X_WT.translation.x())).second);
+      RC_ASSERT(reported.emplace(tag.number, std::pair(tag.id, tag.X_WT.translation.x())).second);
     }
-    for (const TagMoved& tag : step.moved) told.at(tag.number).second = tag.X_WT.translation.x();
+    for (const TagMoved& tag : step.moved)
+      reported.at(tag.number).second = tag.X_WT.translation.x();
     std::map<std::string, double> sum;
-    for (const auto& [number, tag] : told) sum.insert(tag);
+    for (const auto& [number, tag] : reported) sum.insert(tag);
     RC_ASSERT(sum == places);
   }
 }

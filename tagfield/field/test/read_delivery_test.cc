@@ -43,7 +43,7 @@ struct Heard final : ReadListener, PoseListener, TruthListener {
   }
 };
 
-struct Told {
+struct DeliveryFixture {
   std::shared_ptr<Heard> heard = std::make_shared<Heard>();
   ReadDelivery delivery{outlets(heard)};
   static Outlets outlets(const std::shared_ptr<Heard>& heard) {
@@ -67,18 +67,19 @@ std::shared_ptr<const AntennaInfo> antenna(const std::string& name) {
 }
 
 TEST(ReadDelivery, KeepsBackReadsThatAreLaterAndPutsThemInOrder) {
-  Told told;
-  told.delivery.add(read_at(20, "late"), 1.0);
-  told.delivery.add(antenna("a"), at_nanos(30), {}, std::nullopt);
-  told.delivery.add(read_at(10, "early"), 2.0);
-  told.delivery.tell(at_nanos(15));
-  EXPECT_EQ(told.heard->words,
+  DeliveryFixture fixture;
+  fixture.delivery.add(read_at(20, "late"), 1.0);
+  fixture.delivery.add(antenna("a"), at_nanos(30), {}, std::nullopt);
+  fixture.delivery.add(read_at(10, "early"), 2.0);
+  fixture.delivery.tell(at_nanos(15));
+  EXPECT_EQ(fixture.heard->words,
             (std::vector<std::string>{"distance early", "read early", "truth a", "update a"}));
-  told.delivery.add(antenna("b"), at_nanos(30), {}, RigidTransform{});
-  told.delivery.tell(Time::max());
-  EXPECT_EQ(told.heard->words, (std::vector<std::string>{"distance early", "read early", "truth a",
-                                                         "update a", "distance late", "read late",
-                                                         "pose b", "truth b", "update b"}));
+  fixture.delivery.add(antenna("b"), at_nanos(30), {}, RigidTransform{});
+  fixture.delivery.tell(Time::max());
+  EXPECT_EQ(
+      fixture.heard->words,
+      (std::vector<std::string>{"distance early", "read early", "truth a", "update a",
+                                "distance late", "read late", "pose b", "truth b", "update b"}));
 }
 
 TEST(ReadDelivery, TellsNothingTwiceThoughAListenerFails) {
@@ -102,19 +103,19 @@ TEST(ReadDelivery, TellsNothingTwiceThoughAListenerFails) {
 // Against a stable sort of all reads: in any order of arrival, as long as no read between two calls
 // is earlier than those already delivered.
 RC_GTEST_PROP(ReadDelivery, IsAStableSort, ()) {
-  Told told;
+  DeliveryFixture fixture;
   std::vector<TagRead> expected;
   std::int64_t reported_until = 0;
   int made = 0;
   for (int round = 0; round < 5; ++round) {
     for (const int later : *rc::gen::container<std::vector<int>>(rc::gen::inRange(1, 30))) {
       expected.push_back(read_at(reported_until + later, std::to_string(made++)));
-      told.delivery.add(expected.back(), 1.0);
+      fixture.delivery.add(expected.back(), 1.0);
     }
     reported_until += *rc::gen::inRange(0, 20);
-    told.delivery.tell(at_nanos(reported_until));
+    fixture.delivery.tell(at_nanos(reported_until));
   }
-  told.delivery.tell(Time::max());
+  fixture.delivery.tell(Time::max());
   std::stable_sort(expected.begin(), expected.end(),
                    [](const TagRead& a, const TagRead& b) { return a.stamp < b.stamp; });
   std::vector<std::string> words;
@@ -122,7 +123,7 @@ RC_GTEST_PROP(ReadDelivery, IsAStableSort, ()) {
     words.push_back("distance " + read.tag);
     words.push_back("read " + read.tag);
   }
-  RC_ASSERT(told.heard->words == words);
+  RC_ASSERT(fixture.heard->words == words);
 }
 
 /// An antenna and the tags A, B and C in slots 0, 1 and 2.
@@ -150,8 +151,8 @@ struct ThreeTags {
 
 TEST(ReadDelivery, TellsManyReadsAsItTellsThemOneByOne) {
   const ThreeTags field;
-  Told together;
-  Told apart;
+  DeliveryFixture together;
+  DeliveryFixture apart;
   for (const std::int64_t nanos : {5, 9}) {
     std::vector<TagReply> replies = ThreeTags::replies_at(nanos);
     for (const TagReply& reply : replies) {
@@ -160,9 +161,9 @@ TEST(ReadDelivery, TellsManyReadsAsItTellsThemOneByOne) {
     }
     together.delivery.add(field.antenna, at_nanos(nanos), field.tags, replies);
     EXPECT_TRUE(replies.empty());
-    for (Told* const told : {&together, &apart}) {
-      told->delivery.add(antenna("gate"), at_nanos(nanos), {}, std::nullopt);
-      told->delivery.tell(at_nanos(nanos));
+    for (DeliveryFixture* const fixture : {&together, &apart}) {
+      fixture->delivery.add(antenna("gate"), at_nanos(nanos), {}, std::nullopt);
+      fixture->delivery.tell(at_nanos(nanos));
     }
   }
   const std::vector<std::string> of_one_update = {"distance C", "distance A", "distance B",
@@ -207,10 +208,10 @@ struct ManyTags {
 // Reads generated on delivery, a piece at a time, against all of them generated at once.
 TEST(ReadDelivery, MakesReadsAsItTellsThem) {
   const ManyTags field(1000);
-  Told later;
+  DeliveryFixture later;
   later.delivery.add(field.antenna, at_nanos(5), field.tags, Eigen::Vector3d::Zero());
   EXPECT_EQ(later.delivery.reads(), 0);
-  Told made;
+  DeliveryFixture made;
   const std::vector<TagReply> replies =
       replies_of(field.antenna->parameters, Eigen::Vector3d::Zero(), at_nanos(5),
                  field.antenna->seed, field.tags);
@@ -219,9 +220,9 @@ TEST(ReadDelivery, MakesReadsAsItTellsThem) {
     made.delivery.add(to_read(field.antenna->parameters, field.tags.id(reply.slot), reply),
                       reply.distance_m);
   }
-  for (Told* const told : {&later, &made}) {
-    told->delivery.tell(at_nanos(5));
-    EXPECT_EQ(told->delivery.reads(), 1000);
+  for (DeliveryFixture* const fixture : {&later, &made}) {
+    fixture->delivery.tell(at_nanos(5));
+    EXPECT_EQ(fixture->delivery.reads(), 1000);
   }
   EXPECT_EQ(later.heard->distances_m, made.heard->distances_m);
   ASSERT_EQ(later.heard->reads.size(), 1000U);
@@ -237,32 +238,32 @@ TEST(ReadDelivery, MakesReadsAsItTellsThem) {
 
 TEST(ReadDelivery, MakesReadsOfWhereTagsWereThoughItTellsThemLater) {
   ManyTags field(2);
-  Told told;
-  told.delivery.add(field.antenna, at_nanos(5), field.tags, Eigen::Vector3d::Zero());
-  told.delivery.tell(at_nanos(4));
-  EXPECT_TRUE(told.heard->words.empty());
-  EXPECT_EQ(told.delivery.reads(), 2);
+  DeliveryFixture fixture;
+  fixture.delivery.add(field.antenna, at_nanos(5), field.tags, Eigen::Vector3d::Zero());
+  fixture.delivery.tell(at_nanos(4));
+  EXPECT_TRUE(fixture.heard->words.empty());
+  EXPECT_EQ(fixture.delivery.reads(), 2);
   field.tags.remove(0);
   field.tags.move(1, {3.0, 0.0, 0.0});
-  told.delivery.tell(at_nanos(5));
-  EXPECT_EQ(told.heard->words,
+  fixture.delivery.tell(at_nanos(5));
+  EXPECT_EQ(fixture.heard->words,
             (std::vector<std::string>{"distance T0", "read T0", "distance T1", "read T1"}));
-  EXPECT_DOUBLE_EQ(told.heard->distances_m[1], std::hypot(1.001, 0.5));
-  EXPECT_EQ(told.delivery.reads(), 2);
+  EXPECT_DOUBLE_EQ(fixture.heard->distances_m[1], std::hypot(1.001, 0.5));
+  EXPECT_EQ(fixture.delivery.reads(), 2);
 }
 
-TEST(ReadDelivery, KeepsTheNameOfATagThatWentBeforeItsReadIsTold) {
+TEST(ReadDelivery, KeepsTheNameOfATagThatWentBeforeItsReadIsDelivered) {
   ThreeTags field;
-  Told told;
+  DeliveryFixture fixture;
   std::vector<TagReply> replies = ThreeTags::replies_at(5);
-  told.delivery.add(field.antenna, at_nanos(5), field.tags, replies);
-  told.delivery.tell(at_nanos(4));
-  EXPECT_TRUE(told.heard->words.empty());
+  fixture.delivery.add(field.antenna, at_nanos(5), field.tags, replies);
+  fixture.delivery.tell(at_nanos(4));
+  EXPECT_TRUE(fixture.heard->words.empty());
   field.tags.remove(2);
   field.tags.add(2, "D", Eigen::Vector3d::Zero());
-  told.delivery.tell(at_nanos(5));
-  EXPECT_EQ(told.heard->words, (std::vector<std::string>{"distance C", "read C", "distance A",
-                                                         "read A", "distance B", "read B"}));
+  fixture.delivery.tell(at_nanos(5));
+  EXPECT_EQ(fixture.heard->words, (std::vector<std::string>{"distance C", "read C", "distance A",
+                                                            "read A", "distance B", "read B"}));
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ bool envelope_is_known(double depth, double other) {
   return true;
 }
 
-TEST(HearsCommands, WhereAnEnvelopeIsToldBesideAnotherCarrier) {
+TEST(HearsCommands, WhereAnEnvelopeIsKnownBesideAnotherCarrier) {
   constexpr double kDepth = 0.9;
   for (const double ratio_db : {3.0, 6.0, 6.9, 6.98, 8.0, 20.0}) {
     RadioLink link;

@@ -36,15 +36,15 @@ TEST(PosesToCsv, WritesADocumentedRow) {
   EXPECT_EQ(poses_to_csv({}), kPosesHeader);
 }
 
-TEST(PosesCsv, KeepsCovariancesWhereTheyAreTold) {
-  AntennaPose told = {Time(Duration(1)), "a", from_translation({1.0, 2.0, 3.0})};
-  told.covariance.emplace();
-  *told.covariance << 4.0, 0.1, 0.2, 0.1, 5.0, 0.3, 0.2, 0.3, 6.0;
-  AntennaPose untold = told;
-  untold.covariance.reset();
-  const auto poses = poses_of(poses_to_csv({told, untold}));
+TEST(PosesCsv, KeepsCovariancesWhereTheyAreGiven) {
+  AntennaPose with = {Time(Duration(1)), "a", from_translation({1.0, 2.0, 3.0})};
+  with.covariance.emplace();
+  *with.covariance << 4.0, 0.1, 0.2, 0.1, 5.0, 0.3, 0.2, 0.3, 6.0;
+  AntennaPose without = with;
+  without.covariance.reset();
+  const auto poses = poses_of(poses_to_csv({with, without}));
   ASSERT_TRUE(poses[0].covariance.has_value());
-  EXPECT_TRUE(*poses[0].covariance == *told.covariance);
+  EXPECT_TRUE(*poses[0].covariance == *with.covariance);
   EXPECT_FALSE(poses[1].covariance.has_value());
 }
 

@@ -44,7 +44,7 @@ TEST(RandomPhases, AreBelievedInOneCaseOfAHundredAtMost) {
   }
 }
 
-TEST(RandomPhases, OfAModelThatHoldsAreTold) {
+TEST(RandomPhases, OfAModelThatHoldsAreBelieved) {
   std::mt19937_64 rng(2);
   int believed = 0;
   for (int i = 0; i < 1'000; ++i) {

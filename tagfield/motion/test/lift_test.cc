@@ -22,7 +22,7 @@ TEST(LiftHeight, IsZeroWithoutTravel) {
   EXPECT_EQ(lift_height({0.0, 0.35}, time_from_seconds(12.0)), 0.0);
 }
 
-TEST(LiftGuide, GoesUpAndDownUntilToldAHeight) {
+TEST(LiftGuide, GoesUpAndDownUntilGivenAHeight) {
   const Lift lift{1.0, 0.25};
   LiftGuide guide(lift);
   EXPECT_NEAR(guide.height(time_from_seconds(2.0)), 0.5, 1e-12);

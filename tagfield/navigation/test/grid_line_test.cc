@@ -33,7 +33,7 @@ TEST(GridLine, VisitsARowInOrder) {
   EXPECT_NEAR(length, 0.36, 1e-12);
 }
 
-TEST(GridLine, EndsWhereItIsToldTo) {
+TEST(GridLine, EndsWhereItIsStopped) {
   int count = 0;
   EXPECT_FALSE(
       along_line(grid(), {0.0, 0.0}, {3.0, 1.0}, [&](int, int, double) { return ++count < 4; }));

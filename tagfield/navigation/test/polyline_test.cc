@@ -41,7 +41,7 @@ TEST(Polyline, PartsHaveTheCornersBetween) {
   EXPECT_EQ(line.between(5.0, 5.0).size(), 1U);
 }
 
-TEST(Polyline, LooksForTheFootOnlyWhereItIsTold) {
+TEST(Polyline, LooksForTheFootOnlyInTheGivenStretch) {
   const Polyline there_and_back(
       std::vector<Eigen::Vector2d>{{0.0, 0.0}, {5.0, 0.0}, {5.0, 0.1}, {0.0, 0.1}});
   EXPECT_EQ(there_and_back.nearest({1.0, 0.1}, 0.0, 3.0).along_m, 1.0);

@@ -79,7 +79,7 @@ TEST(ScanMemory, StandsOnlyWhatWasSeenForAWhile) {
   EXPECT_FALSE(memory.not_on_map().empty());
 }
 
-TEST(ScanMemory, ForgetsWhenTold) {
+TEST(ScanMemory, ForgetsOnRequest) {
   ScanMemory memory;
   see(memory, scan_at(0.0, 3.0), false);
   memory.forget_around({3.0, 0.0}, 0.08);

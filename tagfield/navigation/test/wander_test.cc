@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(Room, Wanders,
                                            PlanarPose{6.3, 3.0, -1.0}, PlanarPose{2.4, 0.6, 1.57}));
 
 /// A low board across the room that the laser does not see: the robot stays on its side.
-TEST(Wander, MindsWhatItIsToldOf) {
+TEST(Wander, MindsWhatItIsWarnedOf) {
   DriveSimulation simulation = simulation_from({1.5, 1.2, 0.0});
   const PlanarPose start = simulation.pose;
   Wander wander({}, simulation.laser.X_RL);

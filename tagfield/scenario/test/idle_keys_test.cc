@@ -144,7 +144,7 @@ TEST(IdleKeys, AnObstacleWithoutMaterialIsForRobots) {
   EXPECT_EQ(warnings_of(antenna_alone + ", material: person}\n"), Warnings{});
 }
 
-TEST(IdleKeys, SettingsOfAntennasAndTagsAreToldWithTheirNames) {
+TEST(IdleKeys, SettingsOfAntennasAndTagsAreReportedWithTheirNames) {
   EXPECT_EQ(
       warnings_of(hall("link_budget", ", session: s1",
                        "  - {id: u, position: [2, 2, 1], beam_width_deg: 40}\n")),

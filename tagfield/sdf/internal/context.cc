@@ -34,9 +34,9 @@ void require_sdf(Context& context, const XMLElement& root) {
 
 std::string not_found_among(const Missing& first, const std::vector<Missing>& all) {
   std::string others;
-  std::set<std::string> told = {first.uri};
+  std::set<std::string> listed = {first.uri};
   for (const Missing& missing : all) {
-    if (!told.insert(missing.uri).second) continue;
+    if (!listed.insert(missing.uri).second) continue;
     others +=
         fmt::format(", '{}' ({}:{})", missing.uri, missing.location.file, missing.location.line);
   }

@@ -158,7 +158,7 @@ TEST_F(LoadWorldErrors, FilesOfShapesThatAreMissingOrBroken) {
                "world.sdf:7: ", "broken.png: not a PNG image");
 }
 
-TEST_F(LoadWorldErrors, MeshesAndIncludesThatCantBeFoundAreToldTogether) {
+TEST_F(LoadWorldErrors, MeshesAndIncludesThatCantBeFoundAreListedTogether) {
   expect_error("<include><uri>model://nosuch</uri></include>\n" +
                    model_with("<mesh>\n<uri>nosuch.dae</uri></mesh>"),
                "world.sdf:3: can't find 'model://nosuch', 'nosuch.dae' (");

@@ -484,7 +484,7 @@ TEST_F(LoadWorld, ModelsThatCameWhileASavedWorldRan) {
   EXPECT_TRUE(scene.collisions.at(1).X_WC.translation.isApprox(Eigen::Vector3d(1.1, 0, 1)));
 }
 
-TEST_F(LoadWorld, WhatOfASavedStateIsNotUsedIsToldOf) {
+TEST_F(LoadWorld, WhatOfASavedStateIsNotUsedIsReported) {
   load(
       "<state world_name='test'>\n<model name='m'><pose>0 0 0 0 0 0</pose><scale>2 1 1</scale>"
       "</model></state>" +

@@ -120,7 +120,7 @@ TEST(IdleSettings, NoneIsCalledIdleThatWasNotGiven) {
   }
 }
 
-TEST(IdleSettings, AreToldOfASensorInItsOwnWords) {
+TEST(IdleSettings, AreReportedOfASensorInItsOwnWords) {
   Diagnostics diagnostics;
   sensor_radio({{"model", "multipath", {}},
                 {"frequency", "865.7e6", {}},

@@ -120,15 +120,15 @@ TEST(RemoteDriver, OdometryErrsAsItsCovarianceSays) {
     own_navigation(scenario).odometry = {};
     Simulation simulation(scenario, 100 + static_cast<std::uint64_t>(i), {}, nullptr, &driving);
     run_to_end(simulation);
-    const OdometryReport& told = control->reports.back();
+    const OdometryReport& reported = control->reports.back();
     const PlanarPose true_O =
         between(scenario.robots.at(0).start, planar(simulation.robots().at(0).true_pose(0.0)));
-    const Eigen::Vector3d e(told.pose.x - true_O.x, told.pose.y - true_O.y,
-                            wrap_to_pi(told.pose.yaw - true_O.yaw));
-    pose_sum += e.dot(told.covariance.inverse() * e);
-    const BodyVelocity& velocity = told.velocity;
-    forward_sum += std::pow(velocity.forward - 0.6, 2) / told.velocity_variance.x();
-    turn_sum += std::pow(velocity.turn - 0.4, 2) / told.velocity_variance.y();
+    const Eigen::Vector3d e(reported.pose.x - true_O.x, reported.pose.y - true_O.y,
+                            wrap_to_pi(reported.pose.yaw - true_O.yaw));
+    pose_sum += e.dot(reported.covariance.inverse() * e);
+    const BodyVelocity& velocity = reported.velocity;
+    forward_sum += std::pow(velocity.forward - 0.6, 2) / reported.velocity_variance.x();
+    turn_sum += std::pow(velocity.turn - 0.4, 2) / reported.velocity_variance.y();
   }
   EXPECT_NEAR(pose_sum / kRobots, 3.0, 0.6);
   EXPECT_NEAR(forward_sum / kRobots, 1.0, 0.35);

@@ -28,7 +28,7 @@ TEST(Robot, KnowsItsTruePoseBetweenSteps) {
   EXPECT_NEAR(robot.travelled_m(), 0.3 * 0.5, 1e-9);
 }
 
-TEST(Robot, BelievesTheTruthIfToldSo) {
+TEST(Robot, BelievesTheTruthIfConfiguredSo) {
   Robot robot(l_shaped_drive(), PoseBelief{}, 1);
   drive_to_the_end(robot);
   EXPECT_TRUE(robot.true_pose(0.01).translation.isApprox(robot.believed_pose(0.01).translation));

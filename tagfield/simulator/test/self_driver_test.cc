@@ -30,9 +30,9 @@ PoseEstimate about(const PlanarPose& pose) {
 
 /// A robot that drives by itself on the true map, and how close it comes to anything.
 struct Ride {
-  Ride(const PlanarPose& start, const std::optional<PoseEstimate>& told,
+  Ride(const PlanarPose& start, const std::optional<PoseEstimate>& given,
        const std::vector<PlanarPose>& goals)
-      : driver(spec(), 0.4, world(), world().true_map, nullptr, told, goals, 3, 1), truth(start) {}
+      : driver(spec(), 0.4, world(), world().true_map, nullptr, given, goals, 3, 1), truth(start) {}
 
   void step() {
     const BodyVelocity velocity =
@@ -96,7 +96,7 @@ TEST(SelfDriver, GoesOnWhereAGoalIsRefused) {
   EXPECT_EQ(ride.driver.outcomes()[2].state, DriveState::kReached);
 }
 
-TEST(SelfDriver, FindsItselfFirstWhereItWasNotTold) {
+TEST(SelfDriver, FindsItselfFirstWhereNoPoseWasGiven) {
   Ride ride({1.2, -0.8, 2.0}, std::nullopt, {{-1.0, 0.5, 0.0}});
   EXPECT_FALSE(ride.driver.knows_position());
   ride.run(90.0);

@@ -107,7 +107,7 @@ TEST(Surfaces, NormalsPointOutOfABox) {
   EXPECT_DOUBLE_EQ(hits[1].distance_m, 4.0);
 }
 
-TEST(Surfaces, TheSearchStopsWhereItIsTold) {
+TEST(Surfaces, TheSearchStopsAtTheGivenLimits) {
   const RayScene rays(three_shapes());
   RaySegment segment{{-5.0, 0.3, 0.2}, {1.0, 0.0, 0.0}, 0.0, 20.0};
   std::vector<SurfaceHit> hits;
