@@ -75,6 +75,10 @@ class Converter {
   void convert_world(XMLElement* world) {
     // gz-sim's window has different settings.
     for (XMLElement* const gui : children(world, "gui")) world->DeleteChild(gui);
+    for (XMLElement* const population : children(world, "population")) {
+      warn(population, "is left out: gz-sim has no populations");
+      world->DeleteChild(population);
+    }
     XMLElement* const rfid = world->GetDocument()->NewElement("plugin");
     for (XMLElement* const plugin : children(world, "plugin")) {
       if (is_file(*plugin, "TagfieldMaterialsPlugin")) {

@@ -134,6 +134,11 @@ TEST(GzSimWorld, SaysWhatHasNoCounterpart) {
   ASSERT_EQ(gz.warnings().size(), 1U);
   EXPECT_EQ(gz.warnings()[0],
             "old.world:2: <plugin name=\"p\"> is left out: gz-sim has no such plugin");
+  Converted populated("<population name='boxes'><model name='box'/></population>");
+  ASSERT_EQ(populated.warnings().size(), 1U);
+  EXPECT_EQ(populated.warnings()[0],
+            "old.world:2: <population name=\"boxes\"> is left out: gz-sim has no populations");
+  EXPECT_EQ(populated.world()->FirstChildElement("population"), nullptr);
   Diagnostics diagnostics;
   EXPECT_THROW(gz_sim_world("<world/>", "a.world", {}, diagnostics), Error);
   EXPECT_THROW(gz_sim_world("<sdf", "a.world", {}, diagnostics), Error);
