@@ -81,6 +81,10 @@ std::vector<Vector3d> row(int axis, int count, const Vector3d& size, const Rigid
 }  // namespace
 
 std::vector<Vector3d> positions_of(Context& context, const XMLElement& population) {
+  const auto unless_none = [&](std::vector<Vector3d> positions) {
+    if (positions.empty()) leave_out(context, population, "it asks for less than one copy");
+    return positions;
+  };
   const XMLElement* const pose = population.FirstChildElement("pose");
   const XMLElement* const box = population.FirstChildElement("box");
   const XMLElement* const distribution = population.FirstChildElement("distribution");
@@ -96,12 +100,12 @@ std::vector<Vector3d> positions_of(Context& context, const XMLElement& populatio
     for (const char* name : {"rows", "cols", "step"}) {
       if (lacks(*distribution, name)) return {};
     }
-    return grid(context, *distribution, X_WP);
+    return unless_none(grid(context, *distribution, X_WP));
   }
   if (type == "linear-x" || type == "linear-y" || type == "linear-z") {
     if (lacks(population, "box")) return {};
-    return row(type.back() - 'x', count_in(context, population, "model_count"),
-               vector_in(context, *box, "size", {1.0, 1.0, 1.0}), X_WP);
+    return unless_none(row(type.back() - 'x', count_in(context, population, "model_count"),
+                           vector_in(context, *box, "size", {1.0, 1.0, 1.0}), X_WP));
   }
   leave_out(context, population,
             type == "random" || type == "uniform"
