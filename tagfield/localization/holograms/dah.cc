@@ -6,6 +6,7 @@
 
 #include "tagfield/base/random.h"
 #include "tagfield/base/units.h"
+#include "tagfield/localization/holograms/differential_brightness.h"
 #include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {

@@ -16,12 +16,6 @@ struct DahOptions : SearchOptions {
   double min_share = 0.5;      ///< See CoherentJudgement; in (0, 1].
 };
 
-/// Σ over apertures of |Σ_i w_i e^{jε_i}| with ε_i = (φ_i − φ_0) − k (r_i − r_0) wrapped, read 0
-/// being the reference, and the weight w = P(|N(0, (√2 σ)²)| > |ε|) = erfc(|ε|/2σ). For long
-/// apertures, the mean over four references. Bit-identical for every instruction set.
-Tile differential_brightness(const SearchReads& reads, double noise_rad, const Tile& x,
-                             const Tile& y, InstructionSet set = instruction_sets().back());
-
 /// Method "dah": each tag independently. Throws Error on options out of range.
 Method dah_method(const DahOptions& options = {});
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inner loop of dah. Eigen's square roots in single precision begin with an estimate by the
-// processor (RSQRTPS), which differs between manufacturers; those of the standard library do not.
+// Eigen's square roots in single precision begin with an estimate by the processor (RSQRTPS), which
+// differs between manufacturers; those of the standard library do not.
+#include "tagfield/localization/holograms/differential_brightness.h"
+
 #include <cmath>
 
-#include "tagfield/base/lanes.h"
 #include "tagfield/base/units.h"
-#include "tagfield/localization/holograms/dah.h"
 #include "tagfield/localization/holograms/wave_lanes.h"
 
 namespace tagfield {

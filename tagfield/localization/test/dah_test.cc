@@ -7,6 +7,7 @@
 #include "made_search_reads.h"
 #include "method_study.h"
 #include "tagfield/base/error.h"
+#include "tagfield/localization/holograms/differential_brightness.h"
 
 namespace tagfield {
 namespace {

@@ -41,12 +41,6 @@ Vector3d vector_in(Context& context, const XMLElement& element, const char* name
   return {n[0], n[1], n[2]};
 }
 
-void leave_out(Context& context, const XMLElement& population, const std::string& reason) {
-  context.diagnostics.warn(
-      location_of(population),
-      fmt::format("<population> '{}' is left out: {}", attribute_of(population, "name"), reason));
-}
-
 /// Rows and columns around the pose's position. Gazebo turns all of them about the first one.
 std::vector<Vector3d> grid(Context& context, const XMLElement& distribution,
                            const RigidTransform& X_WP) {
@@ -68,7 +62,11 @@ std::vector<Vector3d> grid(Context& context, const XMLElement& distribution,
 }
 
 /// In a row along an axis of the box. Gazebo turns the row about the box's lowest corner.
-std::vector<Vector3d> row(int axis, int count, const Vector3d& size, const RigidTransform& X_WP) {
+std::vector<Vector3d> row(Context& context, const XMLElement& population, int axis,
+                          const RigidTransform& X_WP) {
+  const int count = count_in(context, population, "model_count");
+  const Vector3d size =
+      vector_in(context, *population.FirstChildElement("box"), "size", {1.0, 1.0, 1.0});
   std::vector<Vector3d> positions;
   for (int i = 0; i < count; ++i) {
     Vector3d p = 0.5 * size;
@@ -78,42 +76,53 @@ std::vector<Vector3d> row(int axis, int count, const Vector3d& size, const Rigid
   return positions;
 }
 
+bool is_in_a_row(const std::string& type) {
+  return type == "linear-x" || type == "linear-y" || type == "linear-z";
+}
+
+bool has(const XMLElement& element, const char* name) {
+  return element.FirstChildElement(name) != nullptr;
+}
+
+/// Why Gazebo places no copies, or others in each run; "" if it places some.
+std::string why_left_out(const XMLElement& population, const std::string& type) {
+  if (!has(population, "model") && !has(population, "include")) return "it lacks <model>";
+  if (!has(population, "pose")) return "it lacks <pose>";
+  if (type == "random" || type == "uniform") {
+    return "Gazebo draws the positions at random, others in each run";
+  }
+  if (is_in_a_row(type)) return has(population, "box") ? "" : "it lacks <box>";
+  if (type != "grid") {
+    return fmt::format("its distribution is '{}' (expected grid, linear-x, linear-y or linear-z)",
+                       type);
+  }
+  for (const char* name : {"rows", "cols", "step"}) {
+    if (!has(*population.FirstChildElement("distribution"), name)) {
+      return fmt::format("its <distribution> lacks <{}>", name);
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<Vector3d> positions_of(Context& context, const XMLElement& population) {
-  const auto unless_none = [&](std::vector<Vector3d> positions) {
-    if (positions.empty()) leave_out(context, population, "it asks for less than one copy");
-    return positions;
-  };
-  const XMLElement* const pose = population.FirstChildElement("pose");
-  const XMLElement* const box = population.FirstChildElement("box");
   const XMLElement* const distribution = population.FirstChildElement("distribution");
   const std::string type = distribution == nullptr ? "" : child_text(*distribution, "type");
-  const auto lacks = [&](const XMLElement& element, const char* name) {
-    if (element.FirstChildElement(name) != nullptr) return false;
-    leave_out(context, population, fmt::format("<{}> lacks <{}>", element.Name(), name));
-    return true;
-  };
-  if (lacks(population, "pose")) return {};
-  const RigidTransform X_WP = pose_of(*pose, context.diagnostics);
-  if (type == "grid") {
-    for (const char* name : {"rows", "cols", "step"}) {
-      if (lacks(*distribution, name)) return {};
-    }
-    return unless_none(grid(context, *distribution, X_WP));
+  std::string why = why_left_out(population, type);
+  std::vector<Vector3d> positions;
+  if (why.empty()) {
+    const RigidTransform X_WP = pose_of(*population.FirstChildElement("pose"), context.diagnostics);
+    positions = is_in_a_row(type) ? row(context, population, type.back() - 'x', X_WP)
+                                  : grid(context, *distribution, X_WP);
+    if (positions.empty()) why = "it asks for less than one copy";
   }
-  if (type == "linear-x" || type == "linear-y" || type == "linear-z") {
-    if (lacks(population, "box")) return {};
-    return unless_none(row(type.back() - 'x', count_in(context, population, "model_count"),
-                           vector_in(context, *box, "size", {1.0, 1.0, 1.0}), X_WP));
+  if (!why.empty()) {
+    context.diagnostics.warn(
+        location_of(population),
+        fmt::format("<population> '{}' is left out: {}", attribute_of(population, "name"), why));
   }
-  leave_out(context, population,
-            type == "random" || type == "uniform"
-                ? "Gazebo draws the positions at random, others in each run"
-                : fmt::format("its distribution is '{}' (expected grid, linear-x, linear-y or "
-                              "linear-z)",
-                              type));
-  return {};
+  return positions;
 }
 
 }  // namespace tagfield::sdf_internal

@@ -314,16 +314,18 @@ TEST_F(LoadWorldPoses, PopulationsThatGazeboDoesNotPlaceAreLeftOut) {
            population("d", "<box/><distribution><type>linear-x</type></distribution>") +
            population("e", pose + "<box/><distribution><type>round</type></distribution>") +
            population("f", pose + "<box/><model_count>-5</model_count><distribution>"
-                                  "<type>linear-x</type></distribution>"));
+                                  "<type>linear-x</type></distribution>") +
+           "<population name='g'>" + pose + "<box/></population>");
   EXPECT_TRUE(scene.collisions.empty());
   const std::vector<std::string> expected = {
       ":3: <population> 'a' is left out: Gazebo draws the positions at random, others in each run",
-      ":4: <population> 'b' is left out: <population> lacks <box>",
-      ":5: <population> 'c' is left out: <distribution> lacks <cols>",
-      ":6: <population> 'd' is left out: <population> lacks <pose>",
+      ":4: <population> 'b' is left out: it lacks <box>",
+      ":5: <population> 'c' is left out: its <distribution> lacks <cols>",
+      ":6: <population> 'd' is left out: it lacks <pose>",
       ":7: <population> 'e' is left out: its distribution is 'round' (expected grid, linear-x, "
       "linear-y or linear-z)",
-      ":8: <population> 'f' is left out: it asks for less than one copy"};
+      ":8: <population> 'f' is left out: it asks for less than one copy",
+      ":9: <population> 'g' is left out: it lacks <model>"};
   ASSERT_EQ(diagnostics_.warnings().size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_NE(diagnostics_.warnings()[i].find(expected[i]), std::string::npos)
