@@ -311,7 +311,7 @@ RadioModel without_any_effect() {
 /// An antenna at walking pace or at rest, 15 updates per second, that reads every tag that it
 /// receives.
 void one_antenna(benchmark::State& state, const std::string& path, const Eigen::Vector3d& middle,
-                 double speed_m_s = 0.3) {
+                 double speed_m_s = 0.3, int threads = 1) {
   if (path.empty() || !is_there(path)) {
     state.SkipWithError("no such world: set TAGFIELD_AWS_WORLD");
     return;
@@ -319,7 +319,7 @@ void one_antenna(benchmark::State& state, const std::string& path, const Eigen::
   RadioModel model = strong_model();
   model.reflection_order = static_cast<int>(state.range(0));
   const TagPopulation tags = tags_around(state.range(1), middle);
-  RadioAir air(world_at(path));
+  RadioAir air(world_at(path), threads);
   const AntennaParameters parameters = antenna("a", std::make_shared<const RadioModel>(model));
   air.add(parameters, 1);
   std::vector<TagReply> replies;
@@ -341,6 +341,9 @@ std::string aws_world() {
 }
 
 void aws(benchmark::State& state) { one_antenna(state, aws_world(), {-0.2, -0.2, 0.0}); }
+void aws_by_threads(benchmark::State& state) {
+  one_antenna(state, aws_world(), {-0.2, -0.2, 0.0}, 0.3, static_cast<int>(state.range(2)));
+}
 void aws_at_rest(benchmark::State& state) {
   one_antenna(state, aws_world(), {-0.2, -0.2, 0.0}, 0.0);
 }
@@ -389,6 +392,11 @@ BENCHMARK(aws)
     ->ArgNames({"order", "tags"})
     ->ArgsProduct({{0, 1, 2, 3}, {1000}})
     ->ArgsProduct({{2}, {10, 100}})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(aws_by_threads)
+    ->ArgNames({"order", "tags", "threads"})
+    ->ArgsProduct({{0, 1, 2}, {1000}, {1, 2}})
+    ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(aws_at_rest)
     ->ArgNames({"order", "tags"})

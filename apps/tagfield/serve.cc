@@ -161,6 +161,7 @@ int serve(ServeArguments arguments) {
   LiveOptions options;
   options.speed = arguments.speed.value_or(1.0);
   options.is_paused = arguments.is_paused;
+  options.threads = default_threads();
   // Readers controlled by LLRP clients start on request.
   options.readers_start = !arguments.llrp;
   const auto feed = std::make_shared<http::LiveFeed>(start_time("serve", arguments.start, Time{}));

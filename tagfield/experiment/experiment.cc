@@ -252,8 +252,8 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
   }
   SeedRun run;
   run.seed = seed;
-  Simulation simulation(scenario, seed, outlets_of(control, run.recording), nullptr,
-                        control.remote);
+  Simulation simulation(scenario, seed, outlets_of(control, run.recording), nullptr, control.remote,
+                        control.threads);
   const Pace pace(scenario.real_time);
   while (!simulation.finished() && !stopped(control)) {
     simulation.step();

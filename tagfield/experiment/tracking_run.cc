@@ -21,7 +21,7 @@ namespace {
 /// Simulates the scenario and keeps what tracking needs.
 TrackingRun simulated(const Scenario& scenario, std::uint64_t seed, const RunControl& control) {
   Recording recording;
-  Simulation simulation(scenario, seed, recorded_in(recording));
+  Simulation simulation(scenario, seed, recorded_in(recording), nullptr, nullptr, control.threads);
   while (!simulation.finished() && !stopped(control)) simulation.step();
   simulation.finish();
   TrackingRun run;

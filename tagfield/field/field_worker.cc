@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/field/field_worker.h"
 
+#include <algorithm>
 #include <ctime>
 #include <exception>
 #include <utility>
@@ -17,10 +18,17 @@ double cpu_time_s() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+/// All of the machine's but one, which the driver needs.
+int threads_left() {
+  return std::max(static_cast<int>(std::thread::hardware_concurrency()) - 1, 1);
+}
+
 }  // namespace
 
 FieldWorker::FieldWorker(Outlets outlets, FieldConsole console)
-    : field_(std::move(outlets)), console_(std::move(console)), thread_([this] { work(); }) {}
+    : field_(std::move(outlets), nullptr, threads_left()),
+      console_(std::move(console)),
+      thread_([this] { work(); }) {}
 
 FieldWorker::~FieldWorker() { finish(); }
 

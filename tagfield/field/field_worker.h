@@ -23,13 +23,14 @@ struct FieldConsole {
 
 /// Statistics of the work so far.
 struct WorkDone {
-  double busy_s = 0.0;  ///< CPU time of the thread.
+  double busy_s = 0.0;  ///< CPU time of its thread, without those that trace paths for it.
   std::int64_t reads = 0;
 };
 
 /// Processes a field's steps in order. Reads have no effect on what moves, so they may be generated
 /// with a delay in wall time; their stamps and values don't depend on it. If a step or a listener
-/// throws, the error is reported and the next step is processed.
+/// throws, the error is reported and the next step is processed. Paths to many tags are traced on
+/// all of the machine's processors but one.
 class FieldWorker {
  public:
   FieldWorker(Outlets outlets, FieldConsole console);

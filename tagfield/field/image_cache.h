@@ -20,7 +20,7 @@ class ImageCache {
   explicit ImageCache(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
   /// Images of the position for up to `options.order` reflections; null if they are not available.
-  /// The pointer is valid until the next call.
+  /// The pointer is valid until the next call with that number.
   const ImageSet* find(const RadioScene& scene, std::uint32_t number, const Eigen::Vector3d& p_W,
                        const TraceOptions& options);
   void forget(std::uint32_t number);

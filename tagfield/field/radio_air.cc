@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/parallel.h"
 #include "tagfield/field/radio_port.h"
 
 namespace tagfield {
@@ -36,6 +37,15 @@ Eigen::Vector3d nowhere() {
 
 /// Enough for the images of several thousand tags in a hall at order 2.
 constexpr std::size_t kMaxImageBytes = std::size_t{512} << 20U;
+
+/// Links are computed in blocks of this many tags,
+constexpr std::size_t kBlock = 4096;
+/// of which one thread takes this many at a time.
+constexpr std::size_t kTagsAtATime = 16;
+/// With fewer tags, starting threads costs more than it saves: where waves are reflected, and where
+/// only obstacles on straight lines are looked for.
+constexpr std::size_t kMinTracedTags = 48;
+constexpr std::size_t kMinStraightTags = 512;
 
 bool takes_inventory(const RadioModel& model) { return model.gen2 && model.effects.inventory; }
 
@@ -150,8 +160,9 @@ bool has_turn_soon(const AirAntenna& antenna, const std::vector<PortCycle>& cycl
 
 }  // namespace
 
-RadioAir::RadioAir(std::shared_ptr<const RadioWorld> world)
+RadioAir::RadioAir(std::shared_ptr<const RadioWorld> world, int threads)
     : world_(std::move(world)),
+      threads_(threads),
       memories_(std::make_unique<TagMemories>()),
       tag_images_(kMaxImageBytes) {}
 RadioAir::~RadioAir() = default;
@@ -387,7 +398,8 @@ RadioLink RadioAir::link_of_read(AirAntenna& antenna, const RigidTransform& X_WA
   const ImageSet* const images = tag_images(view, slot, X_WT);
   if (images == nullptr) add_images(antenna, view);
   TagEnd tag{tags.model(slot), X_WT, tags.key(slot), images};
-  surround(tag, slot, stamp, tags, antenna, view);
+  TagSurroundings around;
+  surround(tag, slot, stamp, tags, antenna, view, around);
   return link_of(view, tag, paths_);
 }
 
@@ -435,11 +447,11 @@ const ImageSet* RadioAir::tag_images(const RadioView& view, std::uint32_t slot,
 /// antenna would have to recompute its images at every update; if there are many, the antenna's
 /// images serve all.
 TagEnd RadioAir::tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopulation& tags,
-                         RadioView& view) {
+                         RadioView& view, TagSurroundings& around) {
   TagEnd tag{tags.model(slot), tags.pose(slot), tags.key(slot)};
   if (tags.size() <= kMaxTagsWithImages) tag.images = tag_images(view, slot, tag.X_WT);
   if (tag.images == nullptr && !view.images) add_images(antenna, view);
-  surround(tag, slot, *ran_to_, tags, antenna, view);
+  surround(tag, slot, *ran_to_, tags, antenna, view, around);
   if (slot < antenna.memories.size()) tag.memory = &antenna.memories[slot];
   if (slot < antenna.receiver_memories.size()) {
     tag.receiver_memory = &antenna.receiver_memories[slot];
@@ -447,22 +459,22 @@ TagEnd RadioAir::tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopul
   return tag;
 }
 
-/// Adds the neighbours coupled with the tag, if its antenna simulates coupling, with all poses as
-/// of `stamp`.
+/// Sets `around` to the neighbours coupled with the tag, if its antenna simulates coupling, with
+/// all poses as of `stamp`, and lets the tag refer to it.
 void RadioAir::surround(TagEnd& tag, std::uint32_t slot, Time stamp, const TagPopulation& tags,
-                        AirAntenna& antenna, RadioView& view) {
+                        AirAntenna& antenna, RadioView& view, TagSurroundings& around) {
   if (!couples_tags(antenna.model())) return;
   if (!couplings_seen_) couplings_.see(tags);
   couplings_seen_ = true;
   const CoupledTag& coupled = couplings_.of(slot, view.carrier.lambda_m);
   if (coupled.neighbours.empty()) return;
-  around_.own = coupled.own;
-  around_.neighbours.clear();
+  around.own = coupled.own;
+  around.neighbours.clear();
   for (const auto& [other, share] : coupled.neighbours) {
-    around_.neighbours.push_back(
+    around.neighbours.push_back(
         {&tags.model(other), tag_pose(other, stamp, tags), tags.key(other), share});
   }
-  tag.around = &around_;
+  tag.around = &around;
   if (!view.images) add_images(antenna, view);
 }
 
@@ -514,10 +526,33 @@ void RadioAir::for_each_link(AirAntenna& antenna, const TagPopulation& tags, Rad
     return;
   }
   make_room(slots_, view, antenna);
-  for (const std::uint32_t slot : slots_) {
-    const TagEnd tag = tag_end(antenna, slot, tags, view);
-    visit(slot, tag, link_of(view, tag, paths_));
+  for (std::size_t begin = 0; begin < slots_.size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, slots_.size() - begin);
+    if (arounds_.size() < count) arounds_.resize(count);
+    ends_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      ends_.push_back(tag_end(antenna, slots_[begin + i], tags, view, arounds_[i]));
+    }
+    compute_links(view);
+    for (std::size_t i = 0; i < count; ++i) visit(slots_[begin + i], ends_[i], links_[i]);
   }
+}
+
+/// Sets links_ to those to ends_.
+void RadioAir::compute_links(const RadioView& view) {
+  links_.resize(ends_.size());
+  const std::size_t least = view.tracing.order > 0 ? kMinTracedTags : kMinStraightTags;
+  if (threads_ <= 1 || ends_.size() < least) {
+    links_of(view, ends_, paths_, links_);
+    return;
+  }
+  parallel_for((ends_.size() + kTagsAtATime - 1) / kTagsAtATime, threads_, [&](std::size_t part) {
+    thread_local std::vector<RadioPath> paths;
+    const std::size_t begin = part * kTagsAtATime;
+    const std::size_t count = std::min(kTagsAtATime, ends_.size() - begin);
+    links_of(view, std::span(ends_).subspan(begin, count), paths,
+             std::span(links_).subspan(begin, count));
+  });
 }
 
 void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time now,

@@ -34,8 +34,9 @@ inline constexpr std::size_t kMaxTagsWithImages = 64;
 /// interpolated to that time. Not thread-safe.
 class RadioAir {
  public:
-  /// `world` must not be null.
-  explicit RadioAir(std::shared_ptr<const RadioWorld> world);
+  /// `world` must not be null. Paths to many tags are traced on up to `threads` threads, on which
+  /// the results don't depend.
+  explicit RadioAir(std::shared_ptr<const RadioWorld> world, int threads = 1);
   ~RadioAir();
   RadioAir(RadioAir&&) noexcept;
   RadioAir& operator=(RadioAir&&) noexcept;
@@ -91,13 +92,14 @@ class RadioAir {
   [[nodiscard]] std::vector<MovingBody> bodies_at(const RadioModel& model, Time stamp) const;
   const ImageSet* tag_images(const RadioView& view, std::uint32_t slot, const RigidTransform& X_WT);
   void surround(TagEnd& tag, std::uint32_t slot, Time stamp, const TagPopulation& tags,
-                AirAntenna& antenna, RadioView& view);
+                AirAntenna& antenna, RadioView& view, TagSurroundings& around);
   std::vector<OtherSender> others_of(AirAntenna& antenna, Time now);
   void look_at_others(AirAntenna& antenna, RadioView& view, const std::vector<OtherSender>& others);
   Disturbance disturbance_of(const AirAntenna& antenna, const std::vector<OtherSender>& others,
                              const TagEnd& tag);
   TagEnd tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopulation& tags,
-                 RadioView& view);
+                 RadioView& view, TagSurroundings& around);
+  void compute_links(const RadioView& view);
   template <class Visit>
   void for_each_link(AirAntenna& antenna, const TagPopulation& tags, RadioView& view,
                      const Visit& visit);
@@ -107,6 +109,7 @@ class RadioAir {
                     const TagPopulation& tags);
 
   std::shared_ptr<const RadioWorld> world_;
+  int threads_ = 1;
   std::unique_ptr<TagMemories> memories_;              ///< Inventories keep pointers to it.
   std::vector<std::unique_ptr<AirAntenna>> antennas_;  ///< In the order in which they were added.
   std::vector<PortCycle> cycles_;
@@ -122,9 +125,11 @@ class RadioAir {
   ImageCache tag_images_;
   TagCouplings couplings_;        ///< Of the tags at the last update, if an antenna needs them.
   bool couplings_seen_ = false;   ///< Already updated for this update.
-  TagSurroundings around_;        ///< For the link being computed.
   std::vector<RadioPath> paths_;  ///< Workspace, as are the following.
   std::vector<std::uint32_t> slots_;
+  std::vector<TagSurroundings> arounds_;  ///< Of the following tags.
+  std::vector<TagEnd> ends_;
+  std::vector<RadioLink> links_;  ///< To the same tags.
   std::vector<TagOnAir> field_;
   std::vector<Singulation> read_;
 };

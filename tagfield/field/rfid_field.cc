@@ -42,7 +42,7 @@ std::shared_ptr<const AntennaInfo> info_of(const FieldAntenna& antenna) {
 
 class RfidField::Impl {
  public:
-  Impl(Outlets outlets, std::shared_ptr<const RadioWorld> world);
+  Impl(Outlets outlets, std::shared_ptr<const RadioWorld> world, int threads);
 
   void step(const FieldStep& step);
   void finish() { delivery_.tell(Time::max()); }
@@ -72,6 +72,7 @@ class RfidField::Impl {
   TagPopulation tags_;             ///< Slots are the driver's numbers.
   std::vector<Antenna> antennas_;  ///< In the order in which they were added.
   std::shared_ptr<const RadioWorld> world_;
+  int threads_;
   RadioAir air_;
   std::optional<Time> updated_;  ///< Stamp of the last step in which antennas were due.
   Diagnostics diagnostics_;
@@ -80,11 +81,12 @@ class RfidField::Impl {
   std::vector<TagReply> replies_;     ///< Same.
 };
 
-RfidField::Impl::Impl(Outlets outlets, std::shared_ptr<const RadioWorld> world)
+RfidField::Impl::Impl(Outlets outlets, std::shared_ptr<const RadioWorld> world, int threads)
     : delivery_(std::move(outlets)),
       tags_(kCell),
       world_(empty_unless(std::move(world))),
-      air_(world_) {}
+      threads_(threads),
+      air_(world_, threads) {}
 
 void RfidField::Impl::add_antenna(const std::shared_ptr<const FieldAntenna>& antenna) {
   const std::shared_ptr<const AntennaInfo> info = info_of(*antenna);
@@ -115,7 +117,7 @@ void RfidField::Impl::set_world(const FieldWorld& world) {
 void RfidField::Impl::begin_anew() {
   delivery_.tell(Time::max());
   for (const auto& listener : delivery_.outlets().reads) listener->on_restart();
-  air_ = RadioAir(world_);
+  air_ = RadioAir(world_, threads_);
   for (const Antenna& known : antennas_) {
     const FieldAntenna& antenna = *known.antenna;
     if (meets_world(antenna.parameters)) air_.add(antenna.parameters, antenna.seed);
@@ -246,8 +248,8 @@ void RfidField::Impl::step(const FieldStep& step) {
   delivery_.tell(std::min(step.stamp, air_.complete_until()));
 }
 
-RfidField::RfidField(Outlets outlets, std::shared_ptr<const RadioWorld> world)
-    : impl_(std::make_unique<Impl>(std::move(outlets), std::move(world))) {}
+RfidField::RfidField(Outlets outlets, std::shared_ptr<const RadioWorld> world, int threads)
+    : impl_(std::make_unique<Impl>(std::move(outlets), std::move(world), threads)) {}
 RfidField::~RfidField() = default;
 RfidField::RfidField(RfidField&&) noexcept = default;
 RfidField& RfidField::operator=(RfidField&&) noexcept = default;

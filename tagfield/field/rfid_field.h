@@ -85,8 +85,10 @@ struct RadioWorld;
 /// anew. Not thread-safe.
 class RfidField {
  public:
-  /// `world`: the initial world for wave propagation; null for empty space.
-  explicit RfidField(Outlets outlets, std::shared_ptr<const RadioWorld> world = nullptr);
+  /// `world`: the initial world for wave propagation; null for empty space. Paths to many tags are
+  /// traced on up to `threads` threads, on which the reads don't depend.
+  explicit RfidField(Outlets outlets, std::shared_ptr<const RadioWorld> world = nullptr,
+                     int threads = 1);
   ~RfidField();
   RfidField(RfidField&&) noexcept;
   RfidField& operator=(RfidField&&) noexcept;

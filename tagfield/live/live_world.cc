@@ -61,7 +61,8 @@ class LiveWorld::Impl {
       : scenario(without_end(scenario)),
         seed(seed),
         clock(options.speed, options.is_paused),
-        simulation(without_antennas(scenario), seed, std::move(outlets)) {
+        simulation(without_antennas(scenario), seed, std::move(outlets), nullptr, nullptr,
+                   options.threads) {
     for (const AntennaSpec& spec : scenario.antennas) {
       antennas.push_back({spec, false, false, port_of(spec)});
       if (!options.readers_start) duties[spec.parameters.reader] = {};

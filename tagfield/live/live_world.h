@@ -56,6 +56,7 @@ struct LiveOptions {
   bool is_paused = false;  ///< Initially.
   /// Whether readers read from the start, as the scenario says; otherwise each waits for its duty.
   bool readers_start = true;
+  int threads = 1;  ///< Of the simulation, which doesn't depend on it.
 };
 
 /// Simulates a scenario indefinitely: robots that have arrived stand still. All members except

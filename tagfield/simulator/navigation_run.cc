@@ -161,7 +161,7 @@ NavigatedRun run_navigation(const Scenario& scenario, std::uint64_t seed, const 
   NavigatedRun run;
   const SelfDriving driving = find_map(scenario, seed, control, world, run.navigation);
   if (control.navigation) control.navigation->on_map(run.navigation.map);
-  Simulation simulation(scenario, seed, std::move(outlets), &driving);
+  Simulation simulation(scenario, seed, std::move(outlets), &driving, nullptr, control.threads);
   drive(scenario, control, world, simulation, run.navigation);
   simulation.finish();
   gather_outcomes(simulation, run.navigation);

@@ -34,13 +34,13 @@ std::shared_ptr<const RadioWorld> radio_world_of(const Scenario& scenario) {
 }
 
 Simulation::Simulation(const Scenario& scenario, std::uint64_t seed, Outlets outlets,
-                       const SelfDriving* driving, const RemoteDriving* remote)
+                       const SelfDriving* driving, const RemoteDriving* remote, int threads)
     : seed_(seed),
       time_step_(duration_from_seconds(scenario.time_step_s)),
       end_(end_of(scenario, remote != nullptr)),
       robots_(robots_of(scenario, seed, driving, remote)),
       schedule_(std::make_unique<TagSchedule>(scenario.tags)),
-      field_(std::move(outlets), scenario.radio_world) {
+      field_(std::move(outlets), scenario.radio_world, threads) {
   if (time_step_ <= Duration::zero()) throw Error("time_step_s must be greater than 0");
   for (const RobotSpec& robot : scenario.robots) {
     if (robot.body) robot_bodies_.emplace_back(robot.name, *robot.body);

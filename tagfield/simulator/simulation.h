@@ -52,10 +52,12 @@ class Simulation {
  public:
   /// If `driving` is given, robots with waypoints or goals navigate by themselves; what it points
   /// to must outlive this. If `remote` is given, it drives one robot, and the run ends after the
-  /// scenario's duration, or never. Throws Error on a scenario that can't be simulated: a duplicate
-  /// ID, an unknown robot, a parameter out of range.
+  /// scenario's duration, or never. Paths to many tags are traced on up to `threads` threads, on
+  /// which the results don't depend. Throws Error on a scenario that can't be simulated: a
+  /// duplicate ID, an unknown robot, a parameter out of range.
   Simulation(const Scenario& scenario, std::uint64_t seed, Outlets outlets = {},
-             const SelfDriving* driving = nullptr, const RemoteDriving* remote = nullptr);
+             const SelfDriving* driving = nullptr, const RemoteDriving* remote = nullptr,
+             int threads = 1);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

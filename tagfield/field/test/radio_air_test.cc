@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/field/radio_air.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -223,6 +225,71 @@ TEST(RadioAir, GivesTheSameReadsForTheSameSeedAndOthersForAnother) {
   EXPECT_EQ(run(1), run(1));
   EXPECT_NE(run(1), run(2));
   EXPECT_GT(run(1).size(), 1000U);
+}
+
+/// A floor and two shelves.
+std::shared_ptr<const RadioWorld> furnished() {
+  Scene scene;
+  scene.collisions.push_back({"floor", Plane{Vector3d::UnitZ()}, {}});
+  for (const double y : {-1.0, 2.0}) {
+    scene.collisions.push_back(
+        {"shelf", Box{Vector3d(1.2, 0.3, 1.4)}, from_translation({1.5, y, 0.7})});
+  }
+  Diagnostics diagnostics;
+  return std::make_shared<const RadioWorld>(radio_world(scene, {}, diagnostics));
+}
+
+/// All replies of two antennas that move among closely spaced tags, by `threads` threads.
+std::string replies_by(int threads, int tag_count, const RadioModel& model) {
+  RadioAir air(furnished(), threads);
+  air.add(antenna("r", "a", model), 1);
+  air.add(antenna("s", "b", model), 1);
+  TagPopulation tags(3.0);
+  for (int i = 0; i < tag_count; ++i) {
+    const auto slot = static_cast<std::uint32_t>(i);
+    tags.add(slot, "tag" + std::to_string(i), {2.0 + 0.05 * (i % 7), 0.05 * (i / 7), 0.9});
+    tags.set_model(slot, isotropic_tag());
+  }
+  std::vector<TagReply> replies;
+  std::string all;
+  for (int i = 0; i < 4; ++i) {
+    tags.move(3, {2.0 - 0.1 * i, 0.4, 1.1});
+    for (const std::string name : {"a", "b"}) {
+      const Vector3d start(0.0, name == "a" ? 0.5 : 1.5, 1.2);
+      air.update(name, from_translation(start + Vector3d(0.0, 0.02 * i, 0.0)), at_update(i), tags,
+                 replies);
+      for (const TagReply& reply : replies) {
+        all += fmt::format("{} {} {} {} {} {}\n", name, reply.slot, format_stamp(reply.stamp),
+                           reply.phase_rad, reply.rssi_dbm, *reply.doppler_hz);
+      }
+    }
+  }
+  return all;
+}
+
+TEST(RadioAir, RepliesDoNotDependOnTheNumberOfThreads) {
+  RadioModel straight = plain_model();
+  straight.effects.occlusion = true;
+  straight.interference = true;
+  straight.effects.interference = true;
+  RadioModel reflected = straight;
+  reflected.effects.reflections = true;
+  reflected.reflection_order = 2;
+  RadioModel coupled = reflected;
+  coupled.effects.coupling = true;
+  coupled.tag_coupling = true;
+  RadioModel inventory = gen2_model();
+  inventory.effects.occlusion = true;
+  inventory.effects.reflections = true;
+  inventory.reflection_order = 1;
+  const std::vector<std::pair<RadioModel, int>> cases{
+      {straight, 600}, {reflected, 60}, {reflected, 300}, {coupled, 100}, {inventory, 120}};
+  for (const auto& [model, tags] : cases) {
+    const std::string one = replies_by(1, tags, model);
+    EXPECT_GT(std::count(one.begin(), one.end(), '\n'), 40);
+    EXPECT_EQ(replies_by(2, tags, model), one);
+    EXPECT_EQ(replies_by(5, tags, model), one);
+  }
 }
 
 TEST(RadioAir, AntennaThatIsNowhereReadsNothing) {
