@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "tagfield/localization/aim.h"
 #include "tagfield/localization/at_rest.h"
@@ -95,12 +96,10 @@ bool unwraps(const std::string& method) {
 
 /// The method's result. Arbitrary phases are left out where they would shift others by whole
 /// cycles; positions are checked against all reads.
-LocalizationResult located_by(const Method& method, const LocalizationProblem& problem, int threads,
+LocalizationResult located_by(const Method& method, LocalizationProblem& problem, int threads,
                               Diagnostics& diagnostics) {
-  if (unwraps(method.name) && problem.has_phases) {
-    const auto cleaned = without_stray_phases(problem, threads, diagnostics);
-    if (cleaned) return method.locate(*cleaned, threads, diagnostics);
-  }
+  std::optional<WithoutStrayPhases> cleaned;
+  if (unwraps(method.name) && problem.has_phases) cleaned.emplace(problem, threads, diagnostics);
   return method.locate(problem, threads, diagnostics);
 }
 
@@ -140,12 +139,9 @@ LocalizationResult checked(const LocalizationProblem& problem, LocalizationResul
   return held_against(less, std::move(result), threads, diagnostics);
 }
 
-/// With limits under which tags are located though rotations of the phase leave residuals that, as
-/// slow errors, double the expected error.
-LocalizationProblem lenient(LocalizationProblem problem) {
-  problem.limits.max_expected_error_m *= 2.0;
-  return problem;
-}
+/// Factor on the limit of the expected error with which tags are located though rotations of the
+/// phase leave residuals that, as slow errors, double the expected error.
+constexpr double kLenient = 2.0;
 
 /// Applies the problem's limits to positions by phase; those by RSSI have others.
 void judge_again(const LocalizationProblem& problem, LocalizationResult& result) {
@@ -185,8 +181,8 @@ void warn_of_unknown_pose_error(const LocalizationProblem& problem,
 
 }  // namespace
 
-LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,
-                                  int threads, Diagnostics& diagnostics) {
+LocalizationResult locate_problem(const Method& method, LocalizationProblem& problem, int threads,
+                                  Diagnostics& diagnostics) {
   if (problem.circular.empty() || !problem.has_phases) {
     return checked(problem, located_by(method, problem, threads, diagnostics), threads,
                    diagnostics);
@@ -194,7 +190,10 @@ LocalizationResult locate_problem(const Method& method, const LocalizationProble
   // A first position from the uncorrected phases is needed to estimate how the tags' wires rotate
   // them.
   Diagnostics of_first;
-  LocalizationResult result = located_by(method, lenient(problem), threads, of_first);
+  const double max_expected_error_m = problem.limits.max_expected_error_m;
+  problem.limits.max_expected_error_m *= kLenient;
+  LocalizationResult result = located_by(method, problem, threads, of_first);
+  problem.limits.max_expected_error_m = max_expected_error_m;
   // Traced replies already include these rotations.
   const bool is_blind = is_by_phase(result.method) && result.explained.empty();
   const PolarizationAllowances allowances =

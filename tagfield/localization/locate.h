@@ -33,9 +33,10 @@ struct LocalizationOptions {
 
 /// Runs a method and checks its result against the phases once more. Withdraws positions that
 /// random phases, or phases of the opposite sign, would explain as well, positions behind the
-/// antennas (plausibility.h, aim.h), and positions outside the tag area.
-LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,
-                                  int threads, Diagnostics& diagnostics);
+/// antennas (plausibility.h, aim.h), and positions outside the tag area. `problem` is changed
+/// meanwhile, in place because copies of all reads take much memory, and restored.
+LocalizationResult locate_problem(const Method& method, LocalizationProblem& problem, int threads,
+                                  Diagnostics& diagnostics);
 
 /// Locates every tag in `reads` by the method named in `options`. Reads may be in any order; poses
 /// are the antennas' believed poses. Deterministic, regardless of the number of threads. Throws

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -60,27 +60,54 @@ PositionVector brightest_of(const TagPhases& phases, const HeightModel& height,
   return best;
 }
 
-/// Removes arbitrary phases from one tag's samples and returns their number; none if they are more
-/// than a few, as of two tags under one ID.
-std::size_t remove_strays(SamplesOfTag& samples) {
-  SamplesOfTag kept = samples;
-  for (auto& [antenna, series] : kept) {
+/// The arbitrary phases among one tag's samples; none if they are more than a few, as of two tags
+/// under one ID.
+SamplesOfTag strays_among(const SamplesOfTag& samples) {
+  SamplesOfTag strays;
+  for (const auto& [antenna, series] : samples) {
     if (extent_of(series) < kStillExtent) continue;
     const std::vector<PhaseSample> sorted = by_channel(series);
     std::set<Time> stamps;
     for (const std::size_t i : stray_samples(sorted, phase_noise(sorted))) {
       stamps.insert(sorted[i].stamp);
     }
-    series.erase(
-        std::remove_if(series.begin(), series.end(),
-                       [&](const PhaseSample& sample) { return stamps.count(sample.stamp) > 0; }),
-        series.end());
+    if (stamps.empty()) continue;
+    std::copy_if(series.begin(), series.end(), std::back_inserter(strays[antenna]),
+                 [&](const PhaseSample& sample) { return stamps.count(sample.stamp) > 0; });
   }
-  const std::size_t all = count_reads(samples);
-  const std::size_t removed = all - count_reads(kept);
-  if (static_cast<double>(removed) > kMaxOutliers * static_cast<double>(all)) return 0;
-  samples = std::move(kept);
-  return removed;
+  const auto all = static_cast<double>(count_reads(samples));
+  return static_cast<double>(count_reads(strays)) > kMaxOutliers * all ? SamplesOfTag{} : strays;
+}
+
+bool is_earlier(const PhaseSample& one, const PhaseSample& other) {
+  return one.stamp < other.stamp;
+}
+
+/// Both in ascending order of stamps, which are unique.
+void take_out(const std::vector<PhaseSample>& strays, std::vector<PhaseSample>& series) {
+  auto stray = strays.begin();
+  const auto is_stray = [&](const PhaseSample& sample) {
+    if (stray == strays.end() || stray->stamp != sample.stamp) return false;
+    ++stray;
+    return true;
+  };
+  series.erase(std::remove_if(series.begin(), series.end(), is_stray), series.end());
+}
+
+/// Allocates nothing, as take_out() left the room.
+void put_back(const std::vector<PhaseSample>& strays, std::vector<PhaseSample>& series) {
+  const auto middle = static_cast<std::ptrdiff_t>(series.size());
+  series.insert(series.end(), strays.begin(), strays.end());
+  std::inplace_merge(series.begin(), series.begin() + middle, series.end(), is_earlier);
+}
+
+/// Warns if a noticeable share of the reads is left out.
+void warn_of_strays(std::size_t strays, std::size_t reads, Diagnostics& diagnostics) {
+  // Close to a tag its direction changes faster than expected, at which a few reads in a thousand
+  // seem arbitrary.
+  constexpr double kNoticed = 0.01;
+  const double share = static_cast<double>(strays) / static_cast<double>(reads);
+  if (share > kNoticed) warn_of_outliers(share, diagnostics);
 }
 
 }  // namespace
@@ -169,30 +196,35 @@ std::size_t remove_outliers(const LocalizationProblem& problem, const std::strin
   return removed;
 }
 
-std::optional<LocalizationProblem> without_stray_phases(const LocalizationProblem& problem,
-                                                        int threads, Diagnostics& diagnostics) {
+WithoutStrayPhases::WithoutStrayPhases(LocalizationProblem& problem, int threads,
+                                       Diagnostics& diagnostics)
+    : problem_(problem) {
   std::vector<const SamplesByTag::value_type*> tags;
   for (const auto& entry : problem.samples) tags.push_back(&entry);
-  std::vector<SamplesOfTag> cleaned(tags.size());
-  std::vector<std::size_t> removed(tags.size());
-  parallel_for(tags.size(), threads, [&](std::size_t i) {
-    cleaned[i] = tags[i]->second;
-    removed[i] = remove_strays(cleaned[i]);
-  });
-  const std::size_t all = std::accumulate(removed.begin(), removed.end(), std::size_t{0});
-  if (all == 0) return std::nullopt;
-  LocalizationProblem without = problem;
+  std::vector<SamplesOfTag> found(tags.size());
+  parallel_for(tags.size(), threads,
+               [&](std::size_t i) { found[i] = strays_among(tags[i]->second); });
   std::size_t reads = 0;
+  std::size_t strays = 0;
   for (std::size_t i = 0; i < tags.size(); ++i) {
     reads += count_reads(tags[i]->second);
-    without.samples[tags[i]->first] = std::move(cleaned[i]);
+    strays += count_reads(found[i]);
+    if (!found[i].empty()) strays_[tags[i]->first] = std::move(found[i]);
   }
-  const double share = static_cast<double>(all) / static_cast<double>(reads);
-  // Close to a tag its direction changes faster than expected, at which a few reads in a thousand
-  // seem arbitrary.
-  constexpr double kNoticed = 0.01;
-  if (share > kNoticed) warn_of_outliers(share, diagnostics);
-  return without;
+  for (const auto& [tag, of_tag] : strays_) {
+    for (const auto& [antenna, series] : of_tag) {
+      take_out(series, problem_.samples.at(tag).at(antenna));
+    }
+  }
+  if (strays > 0) warn_of_strays(strays, reads, diagnostics);
+}
+
+WithoutStrayPhases::~WithoutStrayPhases() {
+  for (const auto& [tag, of_tag] : strays_) {
+    for (const auto& [antenna, series] : of_tag) {
+      put_back(series, problem_.samples.at(tag).at(antenna));
+    }
+  }
 }
 
 void warn_of_outliers(double share, Diagnostics& diagnostics) {

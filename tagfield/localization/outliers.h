@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 
 #include "tagfield/localization/height_model.h"
 #include "tagfield/localization/problem.h"
@@ -44,11 +43,21 @@ bool has_outliers(const OutlierMixture& mixture);
 std::size_t remove_outliers(const LocalizationProblem& problem, const std::string& tag,
                             SamplesOfTag& samples);
 
-/// The problem without reads whose phase is arbitrary, recognized by following the phase from read
-/// to read (phase_following.h), with a warning of how many these are; nullopt if there are none.
-/// For methods that unwrap phases: one such read among few shifts the others by whole cycles.
-std::optional<LocalizationProblem> without_stray_phases(const LocalizationProblem& problem,
-                                                        int threads, Diagnostics& diagnostics);
+/// Keeps reads whose phase is arbitrary out of a problem's samples as long as it exists. They are
+/// recognized by following the phase from read to read (phase_following.h); a warning says how many
+/// they are. For methods that unwrap phases: one such read among few shifts the others by whole
+/// cycles.
+class WithoutStrayPhases {
+ public:
+  WithoutStrayPhases(LocalizationProblem& problem, int threads, Diagnostics& diagnostics);
+  ~WithoutStrayPhases();
+  WithoutStrayPhases(const WithoutStrayPhases&) = delete;
+  WithoutStrayPhases& operator=(const WithoutStrayPhases&) = delete;
+
+ private:
+  LocalizationProblem& problem_;
+  SamplesByTag strays_;
+};
 
 /// Warns that this share of the phases is left out.
 void warn_of_outliers(double share, Diagnostics& diagnostics);

@@ -87,6 +87,17 @@ SamplesOfTag with_other_sign(SamplesOfTag samples) {
   return samples;
 }
 
+/// Whether the phases fit a position much better with the opposite sign.
+bool fits_other_sign(const LocalizationProblem& problem, const std::string& tag,
+                     const SamplesOfTag& samples) {
+  // Phases that fit with one sign have residuals of about a radian with the other.
+  constexpr double kBetter = 0.1;
+  const double as_given = best_share(problem, tag, samples);
+  if (as_given + kBetter >= 1.0) return false;  // No share is over 1.
+  const double other = best_share(problem, tag, with_other_sign(samples));
+  return other > as_given + kBetter && other > 0.5;
+}
+
 /// Tags used to determine the sign: the first few that might be located.
 std::vector<const SamplesByTag::value_type*> informative_tags(const LocalizationProblem& problem) {
   constexpr std::size_t kEnough = 3;
@@ -246,16 +257,13 @@ void span_line(const LocalizationProblem& problem, LocalizationResult& result) {
 
 void refuse_wrong_sign(const LocalizationProblem& problem, LocalizationResult& result,
                        Diagnostics& diagnostics) {
-  // Phases that fit with one sign have residuals of about a radian with the other.
-  constexpr double kBetter = 0.1;
-  std::size_t wrong = 0;
   const auto informative = informative_tags(problem);
+  std::size_t right = 0;
   for (const auto* entry : informative) {
-    const double as_given = best_share(problem, entry->first, entry->second);
-    const double other = best_share(problem, entry->first, with_other_sign(entry->second));
-    if (other > as_given + kBetter && other > 0.5) ++wrong;
+    if (!fits_other_sign(problem, entry->first, entry->second)) ++right;
+    if (2 * right >= informative.size()) return;
   }
-  if (wrong == 0 || 2 * wrong <= informative.size()) return;
+  if (informative.empty()) return;
   diagnostics.warn(
       "the phases fit positions only with the opposite sign: they fall with distance (a dataset's "
       "profile says so by falls_with_distance: true), or antennas are mixed up");

@@ -32,6 +32,8 @@ class Given {
   }
 
   [[nodiscard]] const LocalizationProblem& problem() const { return problem_; }
+  /// For locate_problem(), which changes it meanwhile.
+  LocalizationProblem& open_problem() { return problem_; }
 
   const Bounds& bounds(BoundKind kind) {
     std::optional<Bounds>& bounds = kind == BoundKind::kJoint ? joint_ : single_;
@@ -79,7 +81,8 @@ MethodRun run_method(const PreparedMethod& method, const PreparedCondition& cond
                      const Recording& recording, Given& given, Diagnostics& diagnostics) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const LocalizationResult result = locate_problem(method.method, given.problem(), 1, diagnostics);
+  const LocalizationResult result =
+      locate_problem(method.method, given.open_problem(), 1, diagnostics);
   MethodRun run;
   run.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   run.tags_given = given.problem().samples.size();

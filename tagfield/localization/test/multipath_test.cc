@@ -110,7 +110,8 @@ TEST(Multipath, LocatesWhereReflectionsAreNearlyAsStrongAsTheDirectPath) {
   // against the uncorrected phases, which the direct path alone no longer explains.
   const Method checked = {
       "checked", "", [](const LocalizationProblem& problem, int threads, Diagnostics& diagnostics) {
-        return locate_problem(multipath_method(), problem, threads, diagnostics);
+        LocalizationProblem own = problem;
+        return locate_problem(multipath_method(), own, threads, diagnostics);
       }};
   const Tally tally = with(checked, {.gain = 0.8, .believed_gain = 0.8, .pi_ambiguity = true});
   EXPECT_GE(tally.errors.size(), 7U);  // Of 8.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tagfield/localization/locate.h"
@@ -70,6 +71,42 @@ TEST(Outliers, AreTakenOutAndOthersLeft) {
   // One in ten random phases is within 0.3 rad of the right one.
   EXPECT_GT(static_cast<double>(removed), 0.75 * static_cast<double>(spoilt));
   EXPECT_LT(static_cast<double>(removed), 1.2 * static_cast<double>(spoilt));
+}
+
+TEST(Outliers, StrayPhasesAreBackAfterwards) {
+  Rng rng(5);
+  const made::Path path = made::s_curve(12.0, 0.02);
+  made::Hall hall = made::hall(path, path, 6, {}, rng);
+  std::size_t spoilt = 0;
+  for (auto& [tag, samples] : hall.problem.samples) {
+    for (std::size_t i = 0; i < samples["a"].size(); ++i) {
+      const bool is_end = i == 0 || i + 1 == samples["a"].size();
+      if (!is_end && made::uniform(rng, 0.0, 1.0) > 0.02) continue;
+      samples["a"][i].phase_rad = wrap_to_two_pi(samples["a"][i].phase_rad + 2.5);
+      ++spoilt;
+    }
+  }
+  const SamplesByTag before = hall.problem.samples;
+  Diagnostics diagnostics;
+  {
+    const WithoutStrayPhases cleaned(hall.problem, 2, diagnostics);
+    std::size_t out = 0;
+    for (const auto& [tag, samples] : hall.problem.samples) {
+      out += before.at(tag).at("a").size() - samples.at("a").size();
+    }
+    EXPECT_GT(static_cast<double>(out), 0.75 * static_cast<double>(spoilt));
+    EXPECT_LT(static_cast<double>(out), 1.5 * static_cast<double>(spoilt));
+    EXPECT_EQ(diagnostics.warnings().size(), 1U);
+  }
+  const auto is_equal = [](const PhaseSample& one, const PhaseSample& other) {
+    return one.stamp == other.stamp && one.phase_rad == other.phase_rad;
+  };
+  for (const auto& [tag, samples] : before) {
+    const std::vector<PhaseSample>& after = hall.problem.samples.at(tag).at("a");
+    EXPECT_TRUE(std::equal(after.begin(), after.end(), samples.at("a").begin(),
+                           samples.at("a").end(), is_equal))
+        << tag;
+  }
 }
 
 /// With one in 20 phases random, `auto` has the same errors as without them.
