@@ -179,6 +179,7 @@ CoverageQuestion coverage_question(const LiveWorld& world, const Target& target,
   const double cell_m =
       number_in(target, "cell", 0.01, 10.0, std::max(kMinCell_m, fitting_cell(range_m)));
   request.grid = grid_around(X_WA.translation, range_m, cell_m);
+  request.bodies = world.bodies();
   request.seed = seed;
   return question;
 }

@@ -86,15 +86,16 @@ void print_tags(const Coverage& coverage, TagVerdict verdict, const char* title)
     fmt::print("  … and {} more (coverage_tags.csv)\n", count - kMaxTagsListed);
 }
 
-void print(const Coverage& coverage, const std::string& out) {
+void print(const Coverage& coverage, bool is_of_one_moment, const std::string& out) {
   fmt::print("{}: {} cells of {:g} m, {}\n", coverage.scenario, coverage.grid.size(),
              coverage.grid.step_m, coverage.tag_kind);
   for (const CoverageLayer& layer : coverage.layers) {
     fmt::print("at {:.2f} m: {:.1f} % of the area read\n", layer.height_m + 0.0,
                100.0 * share_read(layer));
   }
-  fmt::print("in {:g} s: {:.0f} of {} tags read, {:.0f} to {:.0f} with 95 % confidence\n",
-             coverage.run_s, coverage.expected_read.mean, coverage.tags.size(),
+  fmt::print("in {:g} s{}: {:.0f} of {} tags read, {:.0f} to {:.0f} with 95 % confidence\n",
+             coverage.run_s, is_of_one_moment ? " with all as it is " + coverage.moment : "",
+             coverage.expected_read.mean, coverage.tags.size(),
              std::ceil(coverage.expected_read.low), std::floor(coverage.expected_read.high));
   print_tags(coverage, TagVerdict::kNever, "never read");
   print_tags(coverage, TagVerdict::kSeldom, "seldom read");
@@ -107,6 +108,9 @@ int coverage(const CoverageArguments& arguments) {
   Diagnostics diagnostics;
   ScenarioWithWorld loaded = load(arguments.of_scenario, diagnostics);
   loaded.scenario = as_planned(loaded.scenario, diagnostics);
+  if (arguments.time_s) {
+    leave_out_absent_tags(time_from_seconds(*arguments.time_s), loaded.scenario, diagnostics);
+  }
   const std::vector<DriveSample> samples = drive_of(arguments, loaded.scenario);
   WordedRequest worded = request_of(arguments, loaded, samples, diagnostics);
   const std::string out = arguments.out.empty()
@@ -129,7 +133,7 @@ int coverage(const CoverageArguments& arguments) {
   if (arguments.as_json) {
     fmt::print("{}", coverage_to_json(result));
   } else {
-    print(result, out);
+    print(result, arguments.time_s.has_value(), out);
   }
   return kExitOk;
 }

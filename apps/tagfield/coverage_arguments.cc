@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -12,6 +13,7 @@
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/map/top_view.h"
+#include "tagfield/planning/moment.h"
 #include "tagfield/scenario/orientations.h"
 #include "tagfield/scenario/profile.h"
 #include "tagfield/settings/idle_settings.h"
@@ -85,8 +87,15 @@ RawParameter setting_of(const std::string& argument) {
 }
 
 void warn_of_kinds(const Scenario& scenario, Diagnostics& diagnostics) {
-  std::set<const TagModel*> kinds;
-  for (const TagSpec& tag : scenario.tags) kinds.insert(tag.model.get());
+  // Tags with settings of their own each have a model, even if these are the same.
+  std::set<std::map<std::string, std::string>> kinds;
+  for (const TagSpec& tag : scenario.tags) {
+    std::map<std::string, std::string> settings;
+    if (tag.model) {
+      for (const RawParameter& one : tag.model->settings) settings[one.key] = one.value;
+    }
+    kinds.insert(settings);
+  }
   if (kinds.size() < 2) return;
   diagnostics.warn(
       fmt::format("the tags are of {} kinds: the maps are for that of the first, '{}' (--tag NAME "
@@ -259,6 +268,12 @@ WordedRequest request_of(const CoverageArguments& arguments, const ScenarioWithW
     request.grid = grid_over(region, step);
   } catch (const Error& error) {
     throw Error(fmt::format("coverage: {}", error.what()));
+  }
+  if (arguments.time_s) {
+    const Time time = time_from_seconds(*arguments.time_s);
+    request.bodies = simulation_at(scenario, request.seed, time).bodies_at(time);
+  } else {
+    request.bodies = standing_bodies(scenario, diagnostics);
   }
   worded.moment = arguments.time_s ? fmt::format("at {:g} s", *arguments.time_s)
                                    : "over the whole run, the best moment of each cell";

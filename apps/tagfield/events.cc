@@ -21,6 +21,7 @@
 #include "tagfield/files/files.h"
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/files/staged_folder.h"
+#include "tagfield/report/summary.h"
 
 namespace tagfield {
 namespace {
@@ -60,6 +61,16 @@ std::vector<TagRead> reads_of(const EventsArguments& arguments, Diagnostics& dia
                    [](const TagRead& a, const TagRead& b) { return a.stamp < b.stamp; });
   if (reads.empty()) diagnostics.warn({arguments.recording, 0}, "no reads: there are no events");
   return reads;
+}
+
+/// When the recording ends: a run's folder says how long it was simulated, otherwise with the last
+/// read.
+Time end_of(const std::string& recording, Time last_read) {
+  const fs::path summary = fs::path(recording) / "summary.json";
+  if (!is_folder(recording) || !is_file(summary)) return last_read;
+  const double simulated_s =
+      summary_from_json(read_text_file(summary.string()), summary.string()).simulated_s;
+  return std::max(last_read, time_from_seconds(simulated_s));
 }
 
 /// Events as a human-readable table.
@@ -180,7 +191,7 @@ int events(const EventsArguments& arguments) {
   const EventsSpec spec = arguments.spec.empty() ? EventsSpec{} : read_events_spec(arguments.spec);
   const std::vector<TagRead> reads = reads_of(arguments, diagnostics);
   const Time first = reads.empty() ? Time{} : reads.front().stamp;
-  const Time last = reads.empty() ? Time{} : reads.back().stamp;
+  const Time last = reads.empty() ? Time{} : end_of(arguments.recording, reads.back().stamp);
   const Time start = start_time("events", arguments.start, first);
   const auto table = std::make_shared<EventTable>();
   std::vector<std::shared_ptr<EventListener>> listeners = {table};

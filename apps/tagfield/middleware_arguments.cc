@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "apps/tagfield/command_line.h"
+#include "tagfield/base/spelling.h"
 #include "tagfield/events/epcis.h"
 #include "tagfield/events/events_yaml.h"
 
@@ -65,6 +67,28 @@ void add_middleware_options(CLI::App& command, MiddlewareArguments& arguments) {
   command.add_option("--spec", arguments.spec,
                      "File (YAML) that defines events, as for 'tagfield events': with --mqtt they "
                      "are also published to PREFIX/events, with --capture they are posted");
+}
+
+void warn_of_missing_readers(const MiddlewareArguments& arguments, const Scenario& scenario,
+                             Diagnostics& diagnostics) {
+  if (arguments.spec.empty()) return;
+  std::vector<std::string> antennas;
+  std::vector<std::string> readers;
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    antennas.push_back(antenna.parameters.name);
+    readers.push_back(antenna.parameters.reader);
+  }
+  for (const LogicalReader& logical : read_events_spec(arguments.spec).logical_readers) {
+    const auto warn_unless_among = [&](const std::vector<std::string>& known,
+                                       const std::string& name, const char* what) {
+      if (std::find(known.begin(), known.end(), name) != known.end()) return;
+      diagnostics.warn(Location{arguments.spec, 0},
+                       fmt::format("the scenario has no {} '{}', which logical reader '{}' names{}",
+                                   what, name, logical.name, suggestion(name, known)));
+    };
+    for (const std::string& name : logical.antennas) warn_unless_among(antennas, name, "antenna");
+    for (const std::string& name : logical.readers) warn_unless_among(readers, name, "reader");
+  }
 }
 
 MiddlewareRun attach_middleware(const MiddlewareArguments& arguments, Time start,

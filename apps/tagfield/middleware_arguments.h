@@ -11,6 +11,7 @@
 #include "adapters/epcis/capture_client.h"
 #include "adapters/mqtt/mqtt_outlet.h"
 #include "tagfield/events/event_stage.h"
+#include "tagfield/scenario/scenario.h"
 #include "tagfield/stream/listeners.h"
 
 namespace tagfield {
@@ -45,6 +46,10 @@ struct MiddlewareRun {
   std::shared_ptr<CaptureClient> capture;  ///< Receives EPCIS events.
   std::shared_ptr<EventStage> events;
 };
+
+/// Warns of antennas and readers of --spec that the scenario does not have.
+void warn_of_missing_readers(const MiddlewareArguments& arguments, const Scenario& scenario,
+                             Diagnostics& diagnostics);
 
 /// Times are `start`, since 1970, plus stamps.
 MiddlewareRun attach_middleware(const MiddlewareArguments& arguments, Time start, Outlets& outlets);

@@ -8,6 +8,7 @@
 
 #include "tagfield/layout/plan.h"
 #include "tagfield/layout/plan_check.h"
+#include "tagfield/planning/moment.h"
 
 namespace tagfield {
 namespace {
@@ -26,6 +27,7 @@ LinkMatrix links_of(const ScenarioToPlan& to_plan, const PlanQuestion& question,
   request.folder = question.links;
   request.stop = question.stop;
   request.on_progress = stage_progress(question, "links");
+  request.bodies = standing_bodies(to_plan.loaded.scenario, diagnostics);
   LinkMatrixCounts counts;
   LinkMatrix matrix = evaluate_links(to_plan, request, counts);
   if (counts.damaged > 0) {

@@ -171,6 +171,7 @@ int serve(ServeArguments arguments) {
   const Scenario scenario = as_planned(loaded.scenario, diagnostics);
   const std::uint64_t seed = arguments.of_scenario.seed.value_or(scenario.seed);
   std::string plan = plan_of(arguments, diagnostics);
+  warn_of_missing_readers(arguments.middleware, scenario, diagnostics);
   print_warnings(diagnostics);
   require_token(arguments);
 

@@ -77,6 +77,7 @@ int stream(const StreamArguments& arguments) {
   if (scenario.pose.source == PoseSource::kSlam) {
     world = navigation_world(scenario, loaded.scene, diagnostics);
   }
+  warn_of_missing_readers(arguments.middleware, scenario, diagnostics);
   print_warnings(diagnostics);
   const Time start = start_time("stream", arguments.start, Time{});
   const auto lines = std::make_shared<LinePrinter>(start);

@@ -42,7 +42,10 @@ Coverage covered(const LoadedPtr& loaded, const CoverageArguments& arguments,
   ScenarioWithWorld planned = loaded->parts;
   planned.scenario = as_planned(planned.scenario, diagnostics);
   std::optional<Time> time;
-  if (arguments.time_s) time = time_from_seconds(*arguments.time_s);
+  if (arguments.time_s) {
+    time = time_from_seconds(*arguments.time_s);
+    leave_out_absent_tags(*time, planned.scenario, diagnostics);
+  }
   const std::uint64_t seed = arguments.of_scenario.seed.value_or(planned.scenario.seed);
   const std::vector<DriveSample> samples = sample_drive(planned.scenario, seed, time);
   WordedRequest worded = request_of(arguments, planned, samples, diagnostics);

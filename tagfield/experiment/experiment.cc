@@ -269,7 +269,7 @@ void localize(const Scenario& scenario, SeedRun& run, const RunControl& control,
               Diagnostics& diagnostics) {
   const std::string why_not = why_inventory_alone(scenario);
   if (!why_not.empty() || all_antennas_rest(scenario)) {
-    run.inventory = inventory_of(scenario, run.recording.reads, run.simulated_s);
+    run.inventory = inventory_of(scenario, run.recording, run.simulated_s);
   }
   if (!why_not.empty()) {
     leave_unlocated(scenario, why_not, "not asked for: " + why_not, run);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -18,9 +19,11 @@ constexpr std::size_t kMaxMoments = 200;
 constexpr std::size_t kMaxLevels = 8;
 constexpr double kSameLevel_m = 0.05;
 
+constexpr std::size_t kNoZone = std::numeric_limits<std::size_t>::max();
+
 /// The zone of a tag and its reads.
 struct TagTally {
-  std::size_t zone = 0;
+  std::size_t zone = kNoZone;
   double height_m = 0.0;
   double first_s = 0.0;
   std::size_t reads = 0;
@@ -30,8 +33,6 @@ struct TagTally {
 
 using Tallies = std::map<std::string, TagTally>;
 
-Eigen::Vector3d place_of(const TagSpec& tag) { return tag.motion.front().X_WB.translation; }
-
 /// One zone per reader, if there are several.
 std::vector<ZoneSpec> zones_by_nearness(const std::vector<std::string>& readers) {
   std::vector<ZoneSpec> zones;
@@ -40,37 +41,69 @@ std::vector<ZoneSpec> zones_by_nearness(const std::vector<std::string>& readers)
   return zones;
 }
 
-std::size_t nearest_reader(const Scenario& scenario, const std::vector<std::string>& groups,
-                           const std::vector<std::string>& readers, const Eigen::Vector3d& p_W) {
-  double least = -1.0;
-  std::string nearest;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    const double distance = (scenario.antennas[i].X_PA.translation - p_W).norm();
-    if (least >= 0.0 && distance >= least) continue;
-    least = distance;
-    nearest = groups[i];
+/// The antenna that a tag has come nearest to.
+struct NearestAntenna {
+  double distance_m = std::numeric_limits<double>::infinity();
+  std::size_t antenna = 0;
+
+  void approach(const Scenario& scenario, const Eigen::Vector3d& p_WT) {
+    for (std::size_t i = 0; i < scenario.antennas.size(); ++i) {
+      const double distance = (scenario.antennas[i].X_PA.translation - p_WT).norm();
+      if (!(distance < distance_m)) continue;
+      distance_m = distance;
+      antenna = i;
+    }
   }
-  return static_cast<std::size_t>(std::find(readers.begin(), readers.end(), nearest) -
-                                  readers.begin());
+};
+
+/// Number of the reader that each tag has come nearest to.
+std::map<std::string, std::size_t> nearest_readers(const Scenario& scenario,
+                                                   const std::vector<std::string>& groups,
+                                                   const std::vector<std::string>& readers,
+                                                   const std::vector<TagPosition>& positions) {
+  std::map<std::string, NearestAntenna> nearest;
+  for (const TagPosition& at : positions) nearest[at.tag].approach(scenario, at.p_WT);
+  std::map<std::string, std::size_t> numbers;
+  for (const auto& [tag, of_tag] : nearest) {
+    const auto reader = std::find(readers.begin(), readers.end(), groups[of_tag.antenna]);
+    numbers[tag] = static_cast<std::size_t>(reader - readers.begin());
+  }
+  return numbers;
+}
+
+/// Where each tag appeared.
+std::map<std::string, Eigen::Vector3d> first_positions(const std::vector<TagPosition>& positions) {
+  std::map<std::string, Eigen::Vector3d> first;
+  for (const TagPosition& at : positions) first.try_emplace(at.tag, at.p_WT);
+  return first;
 }
 
 class Tally {
  public:
-  Tally(const Scenario& scenario, const std::vector<TagRead>& reads)
+  Tally(const Scenario& scenario, const Recording& recording)
       : groups_(reader_groups(scenario)), readers_(distinct(groups_)), zones_(scenario.zones) {
     const bool by_nearness = zones_.empty() && all_antennas_rest(scenario);
     if (by_nearness) zones_ = zones_by_nearness(readers_);
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       group_of_[scenario.antennas[i].parameters.name] = groups_[i];
     }
+    const std::vector<TagPosition>& positions = recording.truth.tag_positions;
     for (const TagSpec& tag : scenario.tags) {
-      TagTally& of_tag = tallies_[tag.id];
-      of_tag.height_m = place_of(tag).z();
-      of_tag.zone = by_nearness && !zones_.empty()
-                        ? nearest_reader(scenario, groups_, readers_, place_of(tag))
-                        : zone_at(zones_, place_of(tag));
+      tallies_[tag.id].height_m = tag.motion.front().X_WB.translation.z();
     }
-    for (const TagRead& read : reads) add(read);
+    for (const auto& [id, p_WT] : first_positions(positions)) {
+      const auto found = tallies_.find(id);
+      if (found == tallies_.end()) continue;
+      found->second.height_m = p_WT.z();
+      if (!by_nearness) found->second.zone = zone_at(zones_, p_WT);
+    }
+    if (by_nearness && !zones_.empty()) {
+      for (const auto& [id, zone] : nearest_readers(scenario, groups_, readers_, positions)) {
+        const auto found = tallies_.find(id);
+        if (found != tallies_.end()) found->second.zone = zone;
+      }
+    }
+    for (const TagRead& read : recording.reads) add(read);
   }
 
   [[nodiscard]] InventorySummary summary(const Scenario& scenario, double duration_s) const;
@@ -273,9 +306,9 @@ std::string why_inventory_alone(const Scenario& scenario) {
   return fmt::format("all antennas stand still, and '{}' needs one that moves", method);
 }
 
-InventorySummary inventory_of(const Scenario& scenario, const std::vector<TagRead>& reads,
+InventorySummary inventory_of(const Scenario& scenario, const Recording& recording,
                               double duration_s) {
-  return Tally(scenario, reads).summary(scenario, duration_s);
+  return Tally(scenario, recording).summary(scenario, duration_s);
 }
 
 }  // namespace tagfield

@@ -8,7 +8,7 @@
 
 #include "tagfield/report/summary.h"
 #include "tagfield/scenario/scenario.h"
-#include "tagfield/stream/tag_read.h"
+#include "tagfield/stream/recording.h"
 
 namespace tagfield {
 
@@ -19,10 +19,10 @@ bool all_antennas_rest(const Scenario& scenario);
 /// a moving antenna and there is none. "" if tags are located.
 std::string why_inventory_alone(const Scenario& scenario);
 
-/// The summary of `duration_s` of reads. Tags belong to the zone that they are in initially.
-/// Without zones they belong to that of the initially nearest reader, if there are several and all
-/// antennas are stationary.
-InventorySummary inventory_of(const Scenario& scenario, const std::vector<TagRead>& reads,
+/// The summary of `duration_s` of reads. Tags belong to the zone in which they appeared. Without
+/// zones they belong to that of the reader whose antenna they came nearest to, if there are several
+/// and all antennas are stationary. A tag that never appeared belongs to no zone.
+InventorySummary inventory_of(const Scenario& scenario, const Recording& recording,
                               double duration_s);
 
 }  // namespace tagfield

@@ -79,6 +79,13 @@ struct ShapeText {
 };
 
 /// Everything about the world that affects waves.
+std::string text_of(const Material& material) {
+  return fmt::format("{} {:.17g} {:.17g} {:.17g} {:.17g} {} {} {};", material.name,
+                     material.permittivity_a, material.permittivity_b, material.conductivity_c,
+                     material.conductivity_d, material.wall_m.value_or(-1.0),
+                     material.crossing_db.value_or(-1.0), material.is_opaque);
+}
+
 std::string text_of(const ScenarioWithWorld& loaded) {
   const RadioWorld& world = *loaded.scenario.radio_world;
   std::string text;
@@ -86,11 +93,7 @@ std::string text_of(const ScenarioWithWorld& loaded) {
     const Collision& collision = loaded.scene.collisions[i];
     text += std::visit(ShapeText{}, collision.shape) + ' ';
     append(text, collision.X_WC);
-    const Material& material = world.materials[world.material_of[i]];
-    text += fmt::format("{} {:.17g} {:.17g} {:.17g} {:.17g} {} {} {};", material.name,
-                        material.permittivity_a, material.permittivity_b, material.conductivity_c,
-                        material.conductivity_d, material.wall_m.value_or(-1.0),
-                        material.crossing_db.value_or(-1.0), material.is_opaque);
+    text += text_of(world.materials[world.material_of[i]]);
   }
   return text + fmt::format("{:.17g}", loaded.scenario.materials.min_facet_m2);
 }
@@ -98,6 +101,17 @@ std::string text_of(const ScenarioWithWorld& loaded) {
 std::string text_of(const std::vector<RawParameter>& settings) {
   std::string text;
   for (const RawParameter& setting : settings) text += setting.key + '=' + setting.value + ';';
+  return text;
+}
+
+std::string text_of(const std::vector<MovingBody>& bodies) {
+  std::string text;
+  for (const MovingBody& body : bodies) {
+    text += fmt::format("body {} {:.17g};", body.is_round, body.yaw_rad) + text_of(body.material);
+    for (const Eigen::Vector3d& row : {body.p_W, body.half_m}) {
+      text += fmt::format("{:.17g} {:.17g} {:.17g};", row.x(), row.y(), row.z());
+    }
+  }
   return text;
 }
 
@@ -144,7 +158,7 @@ class Evaluation {
     if (request.folder.empty()) return;
     std::filesystem::create_directories(request.folder);
     common_ = text_of(to_plan.loaded) + text_of(to_plan.plan, matrix.rows) +
-              fmt::format("{}", request.seed);
+              text_of(request.bodies) + fmt::format("{}", request.seed);
     common_ = content_hash(common_);
   }
 
@@ -182,8 +196,9 @@ class Evaluation {
                const std::vector<double>& carriers, std::vector<std::int8_t>& steps) const {
     const Scenario& scenario = to_plan_.loaded.scenario;
     const double middle_hz = carriers[carriers.size() / 2];
-    const RadioView view = view_from(model, *scenario.radio_world, mount.X_WA[look], middle_hz,
-                                     stream_key(mount.name), request_.seed);
+    RadioView view = view_from(model, *scenario.radio_world, mount.X_WA[look], middle_hz,
+                               stream_key(mount.name), request_.seed);
+    if (model.effects.bodies) view.bodies = request_.bodies;
     const std::size_t states = kFadingPositions * carriers.size();
     steps.assign(matrix_.rows.size() * states, -128);
     std::vector<RadioPath> paths;

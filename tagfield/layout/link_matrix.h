@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/channel/moving_body.h"
 #include "tagfield/planning/forecast.h"
 #include "tagfield/scenario/plan_spec.h"
 
@@ -60,8 +61,9 @@ std::vector<LinkElement> elements_of(const LinkMatrix& matrix);
 
 struct LinkMatrixRequest {
   std::uint64_t seed = 1;
-  int threads = 1;     ///< The result does not depend on it.
-  std::string folder;  ///< Cache of columns; "" for none.
+  int threads = 1;                   ///< The result does not depend on it.
+  std::string folder;                ///< Cache of columns; "" for none.
+  std::vector<MovingBody> bodies{};  ///< That block waves, at these poses.
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double share)> on_progress;
 };

@@ -470,6 +470,8 @@ std::vector<LivePose> LiveWorld::robots() const {
   return all;
 }
 
+std::vector<MovingBody> LiveWorld::bodies() const { return impl_->simulation.bodies_at(now()); }
+
 LinkExplanation LiveWorld::explain(const std::string& antenna_name,
                                    const std::string& tag_id) const {
   const LiveAntenna& antenna = impl_->antenna_named(antenna_name);

@@ -125,6 +125,8 @@ class LiveWorld {
   void remove_obstacle(const std::string& name);
 
   [[nodiscard]] std::vector<LivePose> robots() const;
+  /// Robots and obstacles that affect waves, where they are now.
+  [[nodiscard]] std::vector<MovingBody> bodies() const;
   /// Explains why the antenna reads the tag now, or why not.
   [[nodiscard]] LinkExplanation explain(const std::string& antenna, const std::string& tag) const;
 

@@ -62,7 +62,7 @@ class GridRun {
  private:
   void add(std::size_t antenna, int number, const DriveSample& sample) {
     const AntennaAtPose place(scenario_, scenario_.antennas[antenna], *world_, sample.X_WA[antenna],
-                              request_.seed);
+                              request_.bodies, request_.seed);
     const std::size_t rows = coverage_.grid.rows;
     parallel_for(rows * coverage_.layers.size(), request_.threads, [&](std::size_t i) {
       add_row(place, number, coverage_.layers[i / rows], i % rows, i);

@@ -25,6 +25,7 @@ struct CoverageRequest {
   Orientations orientations;            ///< Of a tag at a grid cell.
   std::vector<double> heights_m;        ///< One layer each.
   CoverageGrid grid;
+  std::vector<MovingBody> bodies;  ///< That block waves to all tags and cells, at these poses.
   std::uint64_t seed = 1;
   int threads = 1;                                ///< The results do not depend on it.
   const std::atomic<bool>* stop = nullptr;        ///< Set by the caller to end early.

@@ -35,6 +35,17 @@ std::string behind(const std::vector<SurfaceOnPath>& between) {
   return worst == nullptr ? "" : fmt::format("{} ({})", worst->object, worst->material);
 }
 
+/// The moving body that attenuates the direct path most; "" if none does noticeably.
+std::string behind_body(const std::vector<BudgetLine>& lines) {
+  constexpr const char* kPast = "past ";
+  const BudgetLine* worst = nullptr;
+  for (const BudgetLine& line : lines) {
+    if (line.what.rfind(kPast, 0) != 0 || line.db > -kSeen_db) continue;
+    if (worst == nullptr || line.db < worst->db) worst = &line;
+  }
+  return worst == nullptr ? "" : worst->what.substr(std::string(kPast).size());
+}
+
 bool is_blocked(const std::vector<SurfaceOnPath>& between) {
   return std::any_of(between.begin(), between.end(),
                      [](const SurfaceOnPath& met) { return met.opaque; });
@@ -95,7 +106,8 @@ void judge_physical(const LinkQuestion& question, LinkExplanation& link) {
   const bool has_turn = !physical.takes_inventory || (physical.turn && *physical.turn <= link.time);
   const std::string there = behind(physical.between);
   const std::string back = behind(physical.between_return);
-  const std::string what = there.empty() ? back : there;
+  const std::string surface = there.empty() ? back : there;
+  const std::string what = surface.empty() ? behind_body(physical.to_tag) : surface;
   link.read = physical.heard() && has_turn;
   if (!physical.arrives && (is_blocked(physical.between) || is_blocked(physical.between_return))) {
     link.verdict = "not read: blocked by " + what;

@@ -46,8 +46,9 @@ Rays rays_of(const RadioView& view, bool receiver, const TagEnd& tag,
   Rays rays;
   rays.reserve(paths.size());
   for (const RadioPath& path : paths) {
-    rays.push_back({path_gain(path, antenna, at_tag, view.world, view.carrier, effects),
-                    path.length_m, path.arrival_W.x(), path.arrival_W.y()});
+    Complex h = path_gain(path, antenna, at_tag, view.world, view.carrier, effects);
+    if (!view.bodies.empty()) h *= past_bodies(path, view, tag, receiver);
+    rays.push_back({h, path.length_m, path.arrival_W.x(), path.arrival_W.y()});
   }
   for (const DiffractedPath& path : diffracted_paths(view, tag, receiver)) {
     rays.push_back({gain_of(path, view, tag, receiver), path.length_m(), path.arrival_W.x(),

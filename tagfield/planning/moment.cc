@@ -59,4 +59,45 @@ std::string absence_of(const TagSpec& tag, Time time) {
   return "";
 }
 
+std::vector<MovingBody> standing_bodies(const Scenario& scenario, Diagnostics& diagnostics) {
+  Scenario alone;
+  alone.duration_s = 1.0;
+  std::size_t others = 0;
+  for (const ObstacleSpec& obstacle : scenario.obstacles) {
+    if (!obstacle.body) continue;
+    const bool stands =
+        obstacle.motion.size() == 1 && obstacle.appears <= Time{} && !obstacle.disappears;
+    if (stands) alone.obstacles.push_back(obstacle);
+    if (!stands) ++others;
+  }
+  for (const RobotSpec& robot : scenario.robots) {
+    if (robot.body) ++others;
+  }
+  if (others > 0) {
+    diagnostics.warn(
+        fmt::format("{} moving {} left out: obstacles that move or come and go, and "
+                    "robots, block no waves here",
+                    others, others == 1 ? "body is" : "bodies are"));
+  }
+  return Simulation(alone, scenario.seed).bodies_at(Time{});
+}
+
+void leave_out_absent_tags(Time time, Scenario& scenario, Diagnostics& diagnostics) {
+  constexpr std::size_t kNamed = 5;
+  std::size_t absent = 0;
+  std::erase_if(scenario.tags, [&](const TagSpec& tag) {
+    const std::string why = absence_of(tag, time);
+    if (why.empty()) return false;
+    if (++absent <= kNamed) {
+      diagnostics.warn(tag.location, fmt::format("tag '{}' is left out: at {:g} s it is {}", tag.id,
+                                                 to_seconds(time), why));
+    }
+    return true;
+  });
+  if (absent > kNamed) {
+    diagnostics.warn(fmt::format("{} more tags are left out, as they are not there at {:g} s",
+                                 absent - kNamed, to_seconds(time)));
+  }
+}
+
 }  // namespace tagfield

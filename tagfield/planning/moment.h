@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "tagfield/scenario/scenario.h"
 #include "tagfield/simulator/simulation.h"
@@ -21,5 +22,12 @@ Simulation simulation_at(const Scenario& scenario, std::uint64_t seed, Time time
 
 /// Why the tag is absent at `time`: "not there yet (appears at 12 s)"; "" if it is present.
 std::string absence_of(const TagSpec& tag, Time time);
+
+/// Obstacles to waves that stand still during the whole run. Warns of what is left out: obstacles
+/// that move or come and go, and robots' bodies.
+std::vector<MovingBody> standing_bodies(const Scenario& scenario, Diagnostics& diagnostics);
+
+/// Leaves out the tags that are absent at `time`, and warns of each of the first few.
+void leave_out_absent_tags(Time time, Scenario& scenario, Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -85,7 +85,7 @@ struct ExpectedCount {
 /// One of the scenario's own tags.
 struct TagCoverage {
   std::string id;
-  Eigen::Vector3d p_WT = Eigen::Vector3d::Zero();  ///< [m] Its initial position, if it moves.
+  Eigen::Vector3d p_WT = Eigen::Vector3d::Zero();  ///< [m] Where it appears, if it moves.
   int nearest = -1;                                ///< The antenna that comes closest.
   double nearest_m = 0.0;                          ///< Its minimum distance.
   CoverageCell best;                   ///< For the antenna with the greatest margin, at one time.

@@ -377,13 +377,39 @@ ScenarioWithWorld with_world(ReadScenario read, const std::string& path, const S
 }
 
 /// Adds the scenario's stationary tags, each at its own pose; moving ones are not planned for.
+/// Warns of tags of the plan in a zone that no mount is for and the scenario does not have, and of
+/// a limit on cross reads that nothing can break.
+void warn_of_zones(const Scenario& scenario, const PlanSpec& plan, Diagnostics& diagnostics) {
+  const bool has_zone =
+      !scenario.zones.empty() || std::any_of(plan.tags.begin(), plan.tags.end(),
+                                             [](const auto& tags) { return !tags.zone.empty(); });
+  if (plan.limits.cross && !has_zone) {
+    diagnostics.warn("plan.limits.cross_reads has no effect: no tags are in a zone");
+  }
+  std::vector<std::string> known;
+  for (const PlanMount& mount : plan.mounts) {
+    if (mount.zone.empty()) return;  // It is for all zones.
+    known.push_back(mount.zone);
+  }
+  for (const ZoneSpec& zone : scenario.zones) known.push_back(zone.name);
+  for (const PlanTags& tags : plan.tags) {
+    if (tags.zone.empty() || std::count(known.begin(), known.end(), tags.zone) > 0) continue;
+    diagnostics.warn(tags.location,
+                     fmt::format("zone '{}' of the tags '{}': no mount is for it, so no reader is "
+                                 "meant to read them{}",
+                                 tags.zone, tags.name, suggestion(tags.zone, known)));
+  }
+}
+
 void add_own_tags(const Scenario& scenario, Diagnostics& diagnostics, PlanSpec& plan) {
   std::size_t moving = 0;
+  std::size_t passing = 0;
   for (const TagSpec& tag : scenario.tags) {
     if (moves(tag)) {
       ++moving;
       continue;
     }
+    if (tag.appears > Time{} || tag.disappears) ++passing;
     const RigidTransform& X_WT = tag.motion.front().X_WB;
     PlanTags alone;
     alone.name = tag.id;
@@ -395,6 +421,12 @@ void add_own_tags(const Scenario& scenario, Diagnostics& diagnostics, PlanSpec& 
     const std::size_t zone = zone_at(scenario.zones, X_WT.translation);
     if (zone < scenario.zones.size()) alone.zone = scenario.zones[zone].name;
     plan.tags.push_back(std::move(alone));
+  }
+  if (passing > 0) {
+    diagnostics.warn(fmt::format(
+        "{} of the scenario's tags appear later or disappear: they are planned for as present all "
+        "the time",
+        passing));
   }
   if (moving > 0) {
     diagnostics.warn(
@@ -464,6 +496,7 @@ ScenarioToPlan load_scenario_to_plan(const std::string& path,
   }
   scenario.radio_world = std::make_shared<const RadioWorld>(
       radio_world(to_plan.loaded.scene, scenario.materials, diagnostics));
+  warn_of_zones(scenario, to_plan.plan, diagnostics);
   add_own_tags(scenario, diagnostics, to_plan.plan);
   if (to_plan.plan.tags.empty()) fail({path, 0}, "plan has no 'tags', and the scenario has none");
   if (!scenario.antennas.empty()) {

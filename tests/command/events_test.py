@@ -79,6 +79,37 @@ def the_table_says_who_came_and_went(context):
 
 
 @case
+def tags_are_gone_by_the_end_of_a_run(context):
+    path = context.write("early.yaml", """\
+name: early
+duration_s: 6
+model: link_budget
+antennas: [{name: gate_1, reader: gate, pose: [0, 0, 1]}]
+tags: [{id: tag, position: [1, 0, 1], disappears_s: 2}]
+""")
+    spec = context.write("spec.yaml", SPEC)
+    context.run_well("run", path, "--no-page", "--out", context.folder / "run")
+    changes = [event["eventType"] for event in events_of(context, context.folder / "run", "--spec", spec)]
+    check("gone" in changes, f"the tag is gone a second after its last read, 4 s before the end: {changes}")
+    bare = events_of(context, context.folder / "run/reads.csv", "--spec", spec)
+    check("gone" not in [event["eventType"] for event in bare], "a table ends with its last read")
+
+
+@case
+def readers_of_a_spec_are_the_scenarios(context):
+    path = context.write("one.yaml", """\
+name: one
+duration_s: 0.2
+model: link_budget
+antennas: [{name: gate_1, reader: gate, pose: [0, 0, 1]}]
+tags: [{id: tag, position: [1, 0, 1]}]
+""")
+    spec = context.write("spec.yaml", SPEC)
+    result = context.run("stream", path, "--speed", "0", "--mqtt", "mqtt://127.0.0.1:1", "--spec", spec)
+    check_in("the scenario has no antenna 'gate_2', which logical reader 'belt' names", result.err, "stderr")
+
+
+@case
 def epcis_is_valid_by_the_public_schema(context):
     reads = context.write("reads.csv", READS)
     spec = context.write("spec.yaml", SPEC)

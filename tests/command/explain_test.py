@@ -174,6 +174,60 @@ obstacles:
     check_in("did you mean 'person'", bad.err, "a slip")
 
 
+WALLED = """\
+name: walled
+duration_s: 5
+model: link_budget
+antennas:
+  - {name: gate, pose: [0, 0, 1]}
+obstacles:
+  - {name: stack, size: [0.1, 8], position: [1.5, 0], material: metal, height_m: 4}
+  - {name: cart, radius_m: 0.3, position: [0.5, 0], material: metal, appears_s: 3}
+tags:
+  - {id: behind, position: [3, 0, 1]}
+  - {id: late, position: [0, 1.5, 1], appears_s: 2}
+"""
+
+
+@case
+def what_stands_in_the_way_blocks_in_explain_coverage_and_run(context):
+    path = context.write("walled.yaml", WALLED)
+    check_in("behind stack (metal)", explained(context, path, "--tag", "behind")["verdict"], "verdict")
+    out = context.folder / "coverage"
+    result = context.run_well("coverage", path, "--step", "0.5", "--out", out)
+    check_in("1 moving body is left out", result.err, "stderr")
+    by_tag = {tag["id"]: tag["verdict"] for tag in read_json(out / "coverage.json")["tags"]}
+    check_equal(by_tag, {"behind": "never", "late": "intended"}, "verdicts")
+    context.run_well("run", path, "--no-page", "--record-only", "--out", context.folder / "run")
+    check_equal({read["tag"] for read in read_csv(context.folder / "run/reads.csv")}, {"late"}, "read")
+    at_once = context.run_well("coverage", path, "--step", "0.5", "--time", "1", "--out", out)
+    check_in("tag 'late' is left out: at 1 s it is not there yet", at_once.err, "stderr")
+    check_in("with all as it is at 1 s: 0 of 1 tags read", at_once.out, "stdout")
+
+
+@case
+def tags_belong_where_they_appear(context):
+    path = context.write("belt.yaml", """\
+name: belt
+model: link_budget
+duration_s: 10
+antennas:
+  - {name: a, reader: first, pose: [0, 1, 1, 0, 0, -1.57]}
+  - {name: b, reader: second, pose: [20, 1, 1, 0, 0, -1.57]}
+zones:
+  - {name: start, box: [-2, -2, 2, 2], readers: [first]}
+  - {name: end, box: [18, -2, 22, 2], readers: [second]}
+tags:
+  - {id: parcel, trajectory: [[0, 0, 0, 1], [10, 20, 0, 1]], appears_s: 9}
+""")
+    context.run_well("coverage", path, "--step", "1", "--out", context.folder / "coverage")
+    tag, = read_json(context.folder / "coverage/coverage.json")["tags"]
+    check_equal(tag["meant_for"], ["second"], "meant for")
+    context.run_well("run", path, "--no-page", "--out", context.folder / "run")
+    zones = read_json(context.folder / "run/summary.json")["inventory"]["zones"]
+    check_equal([(zone["zone"], zone["tags"]) for zone in zones], [("start", 0), ("end", 1)], "zones")
+
+
 TWO_READERS = """\
 name: two_readers
 duration_s: 2

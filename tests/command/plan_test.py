@@ -155,6 +155,38 @@ def coverage_says_what_the_run_reads(context):
 
 
 @case
+def a_plan_knows_what_stands_in_the_way(context):
+    path = context.write("dock.yaml", """\
+name: dock
+model: link_budget
+duration_s: 2
+tag_profile: monza_r6
+obstacles:
+  - {name: stack, size: [0.1, 8], position: [1.5, 0], material: metal, height_m: 4}
+tags:
+  - {id: late, position: [3, 0.5, 1], appears_s: 1}
+plan:
+  tags:
+    - {name: pallet, points: [[3, 0, 1], [3, 1, 1]]}
+  mounts:
+    - {name: blocked, points: [[0, 0, 1]], rpy_deg: [[0, 0, 0]], powers_dbm: [29],
+       profiles: [speedway_r420, panel_6dbi]}
+    - {name: free, points: [[6, 0, 1]], rpy_deg: [[0, 0, 180]], powers_dbm: [20],
+       profiles: [speedway_r420, panel_6dbi]}
+  limits: {antennas: 1, cross_reads: 0.1}
+""")
+    out = context.folder / "plan"
+    slip = context.run_well("plan", context.write("store.yaml", STORE.replace("cost: 100", "zone: sale, cost: 100")),
+                            "--samples", "8", "--out", context.folder / "slip")
+    check_in("zone 'sales' of the tags 'shelf': no mount is for it", slip.err, "stderr of a slip")
+    result = context.run_well("plan", path, "--samples", "8", "--check", "2", "--out", out)
+    check_in("plan.limits.cross_reads has no effect: no tags are in a zone", result.err, "stderr")
+    check_in("1 of the scenario's tags appear later or disappear", result.err, "stderr")
+    check_in("name: free", (out / "layout.yaml").read_text(), "layout")
+    check_equal(read_json(out / "plan.json")["check"]["inside"], 2, "runs within the range")
+
+
+@case
 def another_scenarios_results_stay(context):
     path = context.write("store.yaml", STORE)
     out = context.folder / "out"

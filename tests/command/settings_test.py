@@ -50,6 +50,8 @@ BESIDE = {
     "patch tags": ("model=link_budget", "tags.*.pattern=patch", "tags.*.beam_width_deg=100",
                    "tags.*.gain_dbi=4", *FINE),
     "two readers": ("model=link_budget", "antennas.far.interference=on", "antennas.far.frequency_hz=866.3e6", *FINE),
+    "in turn": ("model=link_budget", "antennas.*.inventory=gen2", "antennas.right.reader=three",
+                "antennas.far.sharing=time", "antennas.*.start_q=1", *FINE),
     "linear": ("model=link_budget", "antennas.*.polarization=linear"),
 }
 
@@ -78,7 +80,7 @@ OF_TAG = {
 # Settings that equal those of the combination, and so change nothing.
 AS_BEFORE = {
     ("dipoles", "pattern", "dipole"), ("inventory", "inventory", "gen2"), ("fixed Q", "inventory", "gen2"),
-    ("fixed Q", "adaptive_q", "false"), ("isotropic", "pattern", "isotropic"),
+    ("fixed Q", "adaptive_q", "false"), ("isotropic", "pattern", "isotropic"), ("in turn", "inventory", "gen2"),
 }
 
 

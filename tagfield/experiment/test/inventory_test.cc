@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tagfield/base/units.h"
 #include "tagfield/experiment/experiment.h"
 
 namespace tagfield {
@@ -31,6 +32,16 @@ TagRead read(double time_s, const std::string& antenna, const std::string& tag) 
   return one;
 }
 
+/// A recording with the tags where they appear.
+Recording recorded(const Scenario& scenario, std::vector<TagRead> reads) {
+  Recording recording;
+  recording.reads = std::move(reads);
+  for (const TagSpec& tag : scenario.tags) {
+    recording.truth.tag_positions.push_back({Time{}, tag.id, tag.motion.front().X_WB.translation});
+  }
+  return recording;
+}
+
 /// Two doors 10 m apart, two antennas at the first.
 Scenario two_doors() {
   Scenario scenario;
@@ -46,7 +57,7 @@ TEST(Inventory, TellsWhoWasReadByWhomAndWhen) {
   const std::vector<TagRead> reads = {read(0.1, "w1", "a"), read(0.2, "w2", "a"),
                                       read(0.4, "w1", "b"), read(0.6, "e1", "b"),
                                       read(0.8, "w2", "b"), read(1.0, "e1", "c")};
-  const InventorySummary inventory = inventory_of(two_doors(), reads, 2.0);
+  const InventorySummary inventory = inventory_of(two_doors(), recorded(two_doors(), reads), 2.0);
   EXPECT_EQ(inventory.tags, 4U);
   EXPECT_DOUBLE_EQ(inventory.read, 3.0);
   EXPECT_DOUBLE_EQ(inventory.reads, 6.0);
@@ -76,11 +87,54 @@ TEST(Inventory, GoesByTheScenariosZones) {
                      Eigen::AlignedBox3d(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(11, 3, 1)),
                      {"west", "east"},
                      {}}};
-  const InventorySummary inventory = inventory_of(scenario, {read(0.1, "w1", "b")}, 2.0);
+  const InventorySummary inventory =
+      inventory_of(scenario, recorded(scenario, {read(0.1, "w1", "b")}), 2.0);
   ASSERT_EQ(inventory.zones.size(), 2U);
   EXPECT_EQ(inventory.zones[0].tags, 2U);
   EXPECT_DOUBLE_EQ(inventory.zones[0].crossed, 0.0);
   EXPECT_EQ(inventory.zones[1].zone, "elsewhere");
+}
+
+/// A cart that drives from the east door to the west door with a tag on it, mounted at its origin.
+Scenario cart_between_doors() {
+  Scenario scenario = two_doors();
+  scenario.duration_s.reset();
+  RobotSpec cart;
+  cart.name = "cart";
+  cart.start = {10.0, 1.0, kPi};
+  cart.waypoints = {{0.0, 1.0}};
+  scenario.robots = {cart};
+  scenario.tags = {tag("on_cart", {0, 0, 1})};
+  scenario.tags[0].on = "cart";
+  return scenario;
+}
+
+InventorySummary inventory_of_run(const Scenario& scenario) {
+  Diagnostics diagnostics;
+  return *summarize(scenario, run_seeds(scenario, 1, 1, {}, diagnostics), 1.0, diagnostics)
+              .inventory;
+}
+
+TEST(Inventory, ATagOnARobotBelongsWhereItAppears) {
+  Scenario scenario = cart_between_doors();
+  using Box = Eigen::AlignedBox3d;
+  scenario.zones = {
+      {"in the west", Box(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(1, 3, 2)), {}, {}},
+      {"in the east", Box(Eigen::Vector3d(9, -1, 0), Eigen::Vector3d(11, 3, 2)), {}, {}}};
+  const InventorySummary inventory = inventory_of_run(scenario);
+  EXPECT_EQ(inventory.zones[0].tags, 0U);
+  EXPECT_EQ(inventory.zones[1].tags, 1U);
+}
+
+TEST(Inventory, WithoutZonesTheReaderCountsThatATagComesNearest) {
+  // It begins at the east door's antenna, 1 m aside of it, and ends below the west door's.
+  Scenario scenario = cart_between_doors();
+  scenario.robots[0].waypoints = {{0.5, 0.0}};
+  const InventorySummary inventory = inventory_of_run(scenario);
+  ASSERT_EQ(inventory.zones.size(), 2U);
+  EXPECT_EQ(inventory.zones[0].zone, "near west");
+  EXPECT_EQ(inventory.zones[0].tags, 1U);
+  EXPECT_EQ(inventory.zones[1].tags, 0U);
 }
 
 TEST(Inventory, IsChosenWhereNothingCanBeLocated) {

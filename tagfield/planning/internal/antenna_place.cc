@@ -16,7 +16,7 @@ constexpr double kMinDistance = 0.01;
 
 AntennaAtPose::AntennaAtPose(const Scenario& scenario, const AntennaSpec& antenna,
                              const RadioWorld& world, const RigidTransform& X_WA,
-                             std::uint64_t seed)
+                             const std::vector<MovingBody>& bodies, std::uint64_t seed)
     : antenna_(antenna), p_WA_(X_WA.translation) {
   const RadioModel* const model = physical(antenna.parameters);
   if (model == nullptr) return;
@@ -24,6 +24,7 @@ AntennaAtPose::AntennaAtPose(const Scenario& scenario, const AntennaSpec& antenn
   const double middle_hz = carriers_hz_[carriers_hz_.size() / 2];
   const RadioPort port = port_of(scenario, antenna.parameters, seed);
   view_.emplace(view_from(*model, world, X_WA, middle_hz, port.antenna_key, seed));
+  if (model->effects.bodies) view_->bodies = bodies;
 }
 
 double AntennaAtPose::distance(const Eigen::Vector3d& p_WT) const {

@@ -17,9 +17,10 @@ namespace tagfield {
 /// Uses the paper's model or a physical one. May be used by several threads simultaneously.
 class AntennaAtPose {
  public:
-  /// Keeps references to `antenna` and `world`.
+  /// Keeps references to `antenna` and `world`. `bodies` block waves.
   AntennaAtPose(const Scenario& scenario, const AntennaSpec& antenna, const RadioWorld& world,
-                const RigidTransform& X_WA, std::uint64_t seed);
+                const RigidTransform& X_WA, const std::vector<MovingBody>& bodies,
+                std::uint64_t seed);
 
   /// Powers, margin and probability of a tag, at its position and with its key, in these
   /// orientations.

@@ -70,7 +70,8 @@ class TagRun {
     }
     if (due.empty()) return;
     const RigidTransform& X_WA = samples_[sample].X_WA[antenna];
-    const AntennaAtPose place(scenario_, scenario_.antennas[antenna], *world_, X_WA, request_.seed);
+    const AntennaAtPose place(scenario_, scenario_.antennas[antenna], *world_, X_WA,
+                              request_.bodies, request_.seed);
     parallel_for(due.size(), request_.threads, [&](std::size_t i) {
       look_at_tag(place, X_WA, sample, due[i], number, seen[due[i]]);
     });
@@ -218,6 +219,19 @@ TagVerdict verdict_of(const TagCoverage& tag, double best_db) {
   return is_crossed ? TagVerdict::kAlsoOther : TagVerdict::kIntended;
 }
 
+/// Where tag `number` is when it appears, or at the first sample if that is later. For a tag on a
+/// robot or moved in steps, to the distance between samples.
+Eigen::Vector3d first_position(const std::vector<DriveSample>& samples, const TagSpec& tag,
+                               std::size_t number) {
+  if (tag.appears > samples.front().stamp && tag.on.empty() && !tag.in_steps) {
+    return held_position_at(tag.motion, tag.appears);
+  }
+  const auto after =
+      std::find_if(samples.begin() + 1, samples.end(),
+                   [&](const DriveSample& sample) { return sample.stamp > tag.appears; });
+  return (after - 1)->X_WT[number].translation;
+}
+
 void cover_tags(const Scenario& scenario, const std::vector<DriveSample>& samples,
                 const CoverageRequest& request, Coverage& coverage,
                 const std::function<void(double share)>& on_progress) {
@@ -225,7 +239,7 @@ void cover_tags(const Scenario& scenario, const std::vector<DriveSample>& sample
   coverage.tags.resize(scenario.tags.size());
   for (std::size_t i = 0; i < scenario.tags.size(); ++i) {
     coverage.tags[i].id = scenario.tags[i].id;
-    coverage.tags[i].p_WT = samples.front().X_WT[i].translation;
+    coverage.tags[i].p_WT = first_position(samples, scenario.tags[i], i);
   }
   RunForecast of_run(scenario, samples, request);
   std::vector<std::vector<Seen>> all;

@@ -77,6 +77,25 @@ void warn_of_sharing(const Scenario& scenario, const AntennaParameters& antenna,
                   antenna.name));
 }
 
+/// A reader's antennas take turns, so they share the air with other readers in one way.
+void require_one_sharing(const Scenario& scenario, const AntennaParameters& antenna) {
+  const RadioModel& model = *physical(antenna);
+  if (!model.gen2) return;
+  for (const AntennaSpec& other : scenario.antennas) {
+    const RadioModel* const of_other = physical(other.parameters);
+    if (of_other == nullptr || !of_other->gen2 || other.parameters.reader != antenna.reader ||
+        of_other->sharing == model.sharing) {
+      continue;
+    }
+    const RawParameter* const at = last_of(model.settings, "sharing");
+    if (at == nullptr) continue;  // It is reported at the other one.
+    fail(at->location,
+         fmt::format("antenna '{}' has sharing: {}, but antenna '{}' of the same reader, '{}', has "
+                     "not: expected the same for all antennas of a reader",
+                     antenna.name, at->value, other.parameters.name, antenna.reader));
+  }
+}
+
 }  // namespace
 
 void require_use_of_neighbours(const Scenario& scenario, Diagnostics& diagnostics) {
@@ -87,6 +106,7 @@ void require_use_of_neighbours(const Scenario& scenario, Diagnostics& diagnostic
     const RadioModel* const model = physical(antenna.parameters);
     if (model == nullptr) continue;
     require_others(scenario, antenna.parameters);
+    require_one_sharing(scenario, antenna.parameters);
     warn_of_mask(scenario, antenna.parameters, diagnostics);
     warn_of_port_dwell(cycles, antenna.parameters, diagnostics);
     warn_of_sharing(scenario, antenna.parameters, diagnostics);

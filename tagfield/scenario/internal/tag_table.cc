@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -64,11 +65,23 @@ Kind kind_of(const CsvTable& table, const CsvRow& row, const std::string& name,
   return tag_model_from(name, profile.parameters, {table.file, row.line}, diagnostics);
 }
 
+/// A table may have columns of its own, but a misspelt one must not go unnoticed.
+void warn_of_unused_columns(const CsvTable& table, Diagnostics& diagnostics) {
+  const std::vector<std::string> known{"tag",      "x_m",       "y_m",     "z_m",
+                                       "roll_rad", "pitch_rad", "yaw_rad", "profile"};
+  for (const std::string& name : table.header) {
+    if (std::count(known.begin(), known.end(), name) > 0) continue;
+    diagnostics.warn({table.file, 1},
+                     fmt::format("column '{}' is not used{}", name, suggestion(name, known)));
+  }
+}
+
 }  // namespace
 
 std::vector<TagSpec> read_tag_table(const std::string& path, const Kind& otherwise,
                                     Diagnostics& diagnostics) {
   const CsvTable table = read_csv(path);
+  warn_of_unused_columns(table, diagnostics);
   const std::size_t tag = table.column("tag");
   const auto xyz = table.position_columns();
   const auto angles = angle_columns(table);

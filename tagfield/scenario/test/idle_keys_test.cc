@@ -176,6 +176,15 @@ TEST(IdleKeys, TurnsNeedSomebodyToTakeThemWith) {
             Warnings{});
 }
 
+TEST(IdleKeys, AReaderSharesTheAirInOneWay) {
+  const std::string second = "}\n  - {name: b, pose: [0, 0, 1], inventory: gen2, sharing: channel";
+  EXPECT_TRUE(contains(error_of([&] {
+                         warnings_of(
+                             hall("link_budget", ", inventory: gen2, sharing: time" + second));
+                       }),
+                       "antenna 'a' has sharing: time, but antenna 'b' of the same reader, "));
+}
+
 TEST(IdleKeys, ParametersNeedTheirDistribution) {
   EXPECT_TRUE(contains(
       error_of([] { warnings_of(hall("paper", ", optional_distribution_params: [1, 2]")); }),

@@ -40,6 +40,16 @@ TEST(TagTable, HasOrientationAndKind) {
   EXPECT_EQ(tags[1].model, nullptr);
 }
 
+TEST(TagTable, SaysWhichColumnsAreNotUsed) {
+  Diagnostics diagnostics;
+  const std::string path = write_table("tag,x_m,y_m,z_m,profle\na,1,2,3,monza_r6\n");
+  EXPECT_EQ(read_tag_table(path, nullptr, diagnostics).size(), 1U);
+  ASSERT_EQ(diagnostics.warnings().size(), 1U);
+  EXPECT_NE(
+      diagnostics.warnings().front().find("column 'profle' is not used (did you mean 'profile'?)"),
+      std::string::npos);
+}
+
 TEST(TagTable, RefusesHalfAnOrientationAndUnknownKinds) {
   const auto complaint = [](const std::string& text) {
     try {
