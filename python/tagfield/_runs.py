@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+import math
+import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Callable, Mapping
 
 import numpy as np
 
 from . import _core
+from ._checks import number, shown, vector, whole
 from ._tables import Table
 from ._warnings import tell
 
@@ -16,6 +19,9 @@ if TYPE_CHECKING:
     from ._scenario import Scenario
 
 __all__ = ["Coverage", "Explanation", "Layer", "Localization", "Run", "Scan", "Simulation", "Tracks", "Truth"]
+
+
+_PATIENCE_S = 0.1
 
 
 @dataclass(frozen=True)
@@ -67,8 +73,7 @@ class Localization:
         self.corrected_poses = parts["corrected_poses"]
         self.method = parts["method"]
         self.why = parts["why"]
-        self.warnings = parts["warnings"]
-        tell(self.warnings)
+        self.warnings = tell(parts["warnings"])
         self._text = parts["text"]
 
     @property
@@ -157,18 +162,33 @@ class Simulation:
                  outlets: list) -> None:
         self.scenario = scenario
         self.robot = robot
-        self._core = _core.Simulation(scenario._loaded, seed, outlets, robot, policy)
+        self._core = _core.Simulation(scenario._loaded, seed, outlets, robot,
+                                      None if policy is None else _checked(policy))
         self._taken: dict[str, Table] = self._core.take()
 
     def step(self, count: int = 1) -> Table:
-        """Runs `count` time steps and returns their reads as a table, which may be empty."""
-        self._core.step(count)
+        """Runs `count` time steps and returns their reads as a table, which may be empty.
+
+        Ctrl-C raises KeyboardInterrupt between two steps; the reads until then are in the next table.
+        """
+        left = whole("step: count", count)
+        at_once = 1
+        while True:
+            begin = time.monotonic()
+            self._core.step(min(at_once, left))
+            left -= min(at_once, left)
+            if left == 0 or self.finished:
+                break
+            # As many as take about that long, since signals are only handled between calls.
+            at_once = 2 * at_once if time.monotonic() - begin < _PATIENCE_S else max(at_once // 2, 1)
+            at_once = min(at_once, 1_000_000)
         self._taken = self._core.take()
         return self._taken["reads"]
 
     def run_until(self, time_s: float) -> Table:
         """Steps to `time_s` or to the end, and returns the reads of these steps."""
-        while self.now_s < time_s and not self.finished:
+        end_s = float(time_s) if time_s == math.inf else number("run_until: time_s", time_s)
+        while self.now_s < end_s and not self.finished:
             self._core.step(1)
         self._taken = self._core.take()
         return self._taken["reads"]
@@ -214,12 +234,17 @@ class Simulation:
         return self._core.robot_pose(name or self.robot, believed)
 
     def add_tag(self, tag: str, position_m: Any, rpy_rad: Any = (0, 0, 0)) -> None:
-        """Adds a tag at position_m (3,) [m, world], of the same model as the scenario's first tag."""
-        self._core.add_tag(tag, position_m, rpy_rad)
+        """Adds a tag at position_m (3,) [m, world], of the same model as the scenario's first tag.
+
+        Raises Error for an ID that is empty or present, and for a position beyond 1e5 m.
+        """
+        if not isinstance(tag, str) or not tag:
+            raise _core.Error(f"add_tag: tag is {shown(tag)}, expected an ID that is not empty")
+        self._core.add_tag(tag, *_place("add_tag", position_m, rpy_rad))
 
     def move_tag(self, tag: str, position_m: Any, rpy_rad: Any = (0, 0, 0)) -> None:
         """Moves a tag to position_m (3,) [m, world], where it stays at rest."""
-        self._core.move_tag(tag, position_m, rpy_rad)
+        self._core.move_tag(tag, *_place("move_tag", position_m, rpy_rad))
 
     def remove_tag(self, tag: str) -> None:
         """Removes a tag."""
@@ -228,6 +253,24 @@ class Simulation:
     def has_tag(self, tag: str) -> bool:
         """Whether the tag is present."""
         return self._core.has_tag(tag)
+
+
+def _place(what: str, position_m: Any, rpy_rad: Any) -> tuple[np.ndarray, np.ndarray]:
+    return vector(f"{what}: position_m", position_m, most=1e5), vector(f"{what}: rpy_rad", rpy_rad)
+
+
+def _checked(policy: Callable) -> Callable[[float], tuple[float, float]]:
+    """The policy with a check of what it returns."""
+    def asked(time_s: float) -> tuple[float, float]:
+        action = policy(time_s)
+        try:
+            forward_m_s, turn_rad_s = (float(one) for one in action)
+        except (TypeError, ValueError):
+            raise _core.Error(f"policy: returned {shown(action)} at {time_s:g} s, expected two numbers: forward "
+                              "velocity [m/s], turn rate [rad/s]") from None
+        return forward_m_s, turn_rad_s
+
+    return asked
 
 
 class Explanation(dict):
@@ -294,8 +337,7 @@ class Coverage:
         self.orientation: str = parts["orientation"]
         self.moment: str = parts["moment"]
         self.by_paper: bool = parts["by_paper"]
-        self.warnings: list[str] = parts["warnings"]
-        tell(self.warnings)
+        self.warnings: list[str] = tell(parts["warnings"])
         rows, columns = self.layers[0].cells.shape
         self.x_m = self.corner_m[0] + self.step_m * (np.arange(columns) + 0.5)
         self.y_m = self.corner_m[1] + self.step_m * (np.arange(rows) + 0.5)
@@ -321,9 +363,8 @@ class Tracks:
         self.tracks: Table = parts["tracks"]
         self.points: Table = parts["points"]
         self.passings: Table = parts["passings"]
-        self.warnings: list[str] = parts["warnings"]
-        tell(self.warnings)
+        self.warnings: list[str] = tell(parts["warnings"])
 
     def order(self, place: str = "line") -> list[str]:
         """Tags in the order in which they passed the line or a fixed antenna."""
-        return list(self.passings.where(place=place).names("tag"))
+        return list(self.passings[self.passings._are("place", [place])].names("tag"))

@@ -4,9 +4,13 @@
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Iterable
 
 import numpy as np
+
+from ._checks import names as names_in
+from ._checks import suggestion
+from ._warnings import tell
 
 if TYPE_CHECKING:
     import pandas
@@ -72,12 +76,23 @@ class Table(np.ndarray):
         return known.index(name) if name in known else -1
 
     def where(self, **names: str | list[str] | tuple[str, ...]) -> Table:
-        """Selects rows by names: ``reads.where(tag="tag3", antenna=["left", "right"])``."""
+        """Selects rows by names: ``reads.where(tag="tag3", antenna=["left", "right"])``.
+
+        A name that the table does not have selects no rows, with a warning: it may be misspelt, or of
+        something that does not appear yet.
+        """
         rows = np.ones(self.shape, dtype=bool)
         for column, wanted in names.items():
-            wanted = [wanted] if isinstance(wanted, str) else wanted
-            rows &= np.isin(self[column], [self.number(column, name) for name in wanted])
+            wanted = names_in(f"where: {column}", wanted)
+            tell(f"where: {column}: the table has no '{name}'{suggestion(name, self._known(column))}"
+                 for name in wanted if self.number(column, name) < 0)
+            rows &= self._are(column, wanted)
         return self[rows]
+
+    def _are(self, column: str, wanted: Iterable[str]) -> np.ndarray:
+        """Boolean, of the table's shape: in which rows the column has one of these names."""
+        numbers = [self.number(column, name) for name in wanted]
+        return np.isin(self[column], [number for number in numbers if number >= 0])
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a pandas.DataFrame.

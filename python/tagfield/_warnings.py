@@ -8,6 +8,8 @@ import sys
 import warnings
 from typing import Iterable
 
+from ._checks import spoken
+
 __all__ = ["TagfieldWarning", "tell"]
 
 _HERE = os.path.dirname(os.path.abspath(__file__)) + os.sep
@@ -21,11 +23,13 @@ class TagfieldWarning(UserWarning):
     """
 
 
-def tell(lines: Iterable[str]) -> None:
-    """Issues each line as a warning, attributed to the caller's line outside this package."""
+def tell(lines: Iterable[str]) -> list[str]:
+    """Issues each line as a warning, attributed to the caller's line outside this package; returns them."""
     level, frame = 2, sys._getframe(1)
     while frame is not None and frame.f_code.co_filename.startswith(_HERE):
         frame = frame.f_back
         level += 1
-    for line in lines:
+    told = [spoken(line) for line in lines]
+    for line in told:
         warnings.warn(line, TagfieldWarning, stacklevel=level)
+    return told

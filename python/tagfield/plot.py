@@ -104,9 +104,9 @@ def rssi(run: Run, tag: str, ax: Axes | None = None, *, antenna: str = "") -> Ax
 
 
 def _over_time(run: Run, tag: str, antenna: str, column: str, label: str, ax: Axes | None) -> Axes:
-    reads = run.reads.where(tag=tag)
+    reads = run.reads[run.reads._are("tag", [tag])]
     if antenna:
-        reads = reads.where(antenna=antenna)
+        reads = reads[reads._are("antenna", [antenna])]
     if len(reads) == 0:
         raise Error(f"plot: there are no reads of tag '{tag}'" + (f" by '{antenna}'" if antenna else ""))
     ax = _axes(ax, (7.0, 3.2))

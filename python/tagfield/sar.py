@@ -22,8 +22,8 @@ def antenna_positions(reads: Table, poses: Table) -> np.ndarray:
     """
     places = np.full((len(reads), 3), np.nan)
     for antenna in np.unique(reads.names("antenna")):
-        rows = reads["antenna"] == reads.number("antenna", antenna)
-        track = poses.where(name=antenna)
+        rows = reads._are("antenna", [antenna])
+        track = poses[poses._are("name", [antenna])]
         if len(track) == 0:
             continue
         track = track[np.argsort(track["stamp_ns"], kind="stable")]
@@ -42,7 +42,7 @@ def image(reads: Table, poses: Table, tag: str, x_m: Any, y_m: Any, height_m: fl
     The sum is coherent over the reads n of one antenna a on one carrier f, whose phase offset is unknown,
     and by magnitude over antennas and carriers; M is the number of reads. It is 1 where all phases fit.
     """
-    of_tag = reads.where(tag=tag)
+    of_tag = reads[reads._are("tag", [tag])]
     places = antenna_positions(of_tag, poses)
     usable = np.isfinite(places[:, 0])
     if not usable.any():

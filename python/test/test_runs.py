@@ -76,7 +76,14 @@ def test_tables_know_their_names(run):
     assert set(of_tag.names("tag")) == {"tag3"}
     assert len(of_tag) == (run.reads.names("tag") == "tag3").sum()
     assert len(run.reads.where(tag=["tag3", "tag4"])) > len(of_tag)
-    assert len(run.reads.where(tag="nobody")) == 0
+    with pytest.warns(tagfield.TagfieldWarning, match=r"where: tag: the table has no 'tga3' \(did you mean 'tag"):
+        assert len(run.reads.where(tag="tga3")) == 0
+    nameless = run.reads.copy()
+    nameless["tag"][:5] = -1
+    with pytest.warns(tagfield.TagfieldWarning, match="no 'nobody'"):
+        assert len(nameless.where(tag=["nobody"])) == 0
+    with pytest.raises(tagfield.Error, match="where: tag is 3, expected a name or a list of names"):
+        run.reads.where(tag=3)
     with pytest.raises(KeyError, match="is not a column of names"):
         run.reads.names("phase_rad")
 
