@@ -104,11 +104,11 @@ def _method(entry: Any) -> tuple[str, str, list[tuple[str, str]]]:
         return entry, entry, []
     label, method, settings = entry
     name = method.name if isinstance(method, _core.Method) else method
-    return label, name, [(f"localization.{key}", _value_text(value)) for key, value in settings.items()]
+    return label, name, [(f"localization.{key}", _value_text(value, f"bench: {key}")) for key, value in settings.items()]
 
 
 def _condition(scenario: Scenario, label: str, changes: Any, noise: float | None) -> tuple:
     if isinstance(changes, Scenario):
         return label, changes._source.for_core(), [], noise
-    pairs = [pair for key, value in changes.items() for pair in _flat(key, value)]
+    pairs = [pair for key, value in changes.items() for pair in _flat("bench", key, value)]
     return label, scenario._source.for_core(), pairs, noise

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Mapping
 
 from . import _core
+from ._checks import called, number, seed_of, whole
 from ._scenario import Scenario, _changes, _Source, threads_of
 from ._tables import frame_of
 from ._warnings import tell
@@ -31,8 +32,7 @@ class Plan:
         self._parts = dict(parts)
         self.data: dict[str, Any] = json.loads(parts["json"])
         self.layout: str = parts["layout"]
-        self.warnings: list[str] = parts["warnings"]
-        tell(self.warnings)
+        self.warnings: list[str] = tell(parts["warnings"])
 
     def __str__(self) -> str:
         return self._parts["text"]
@@ -54,8 +54,8 @@ class Plan:
     @property
     def scenario(self) -> Scenario:
         """The chosen layout with one random sample of its tags, as a scenario to run."""
-        return Scenario._from(_Source(text=self.layout, name=self.data["scenario"] + "_layout",
-                                      allow_outside=True))
+        return Scenario._from("plan", _Source(text=self.layout, name=self.data["scenario"] + "_layout",
+                                              allow_outside=True))
 
     def layouts(self) -> pandas.DataFrame:
         """One row per number of antennas, as a pandas.DataFrame."""
@@ -95,11 +95,11 @@ def plan(path: str | os.PathLike, *changes: str | Mapping[str, Any], seed: int |
         limits or aims don't compute them again.
     progress: called now and then with the completed share, 0 to 1. Ctrl-C raises KeyboardInterrupt.
     """
-    if not 8 <= samples <= 10_000:
-        raise _core.Error(f"plan: samples is {samples}, expected 8 to 10000")
-    if not 0 <= check <= 10_000:
-        raise _core.Error(f"plan: check is {check}, expected 0 to 10000")
-    if not 0.0 <= exact_s <= 86_400.0:
+    samples = whole("plan: samples", samples, 8, 10_000)
+    check = whole("plan: check", check, 0, 10_000)
+    if not 0.0 <= number("plan: exact_s", exact_s) <= 86_400.0:
         raise _core.Error(f"plan: exact_s is {exact_s}, expected 0 to 86400")
-    return Plan(_core.plan(os.fspath(path), _changes("plan", changes, {}), skip_missing, allow_outside, seed,
-                           samples, check, exact_s, os.fspath(links), threads_of(threads), progress))
+    seed = None if seed is None else seed_of("plan", seed)
+    return Plan(called("plan", _core.plan, os.fspath(path), _changes("plan", changes, {}), skip_missing,
+                       allow_outside, seed, samples, check, exact_s, os.fspath(links), threads_of(threads),
+                       progress))

@@ -12,6 +12,7 @@ from typing import Any, Callable, Iterable, Mapping, Sequence
 import numpy as np
 
 from . import _core
+from ._checks import called, method_of, names, number, seed_of, shown, time, vector, whole
 from ._runs import Coverage, Explanation, Run, Simulation, Tracks
 from ._warnings import tell
 
@@ -33,11 +34,7 @@ def share(name: str) -> str:
 
 def threads_of(threads: int | None) -> int:
     """The checked number of threads; None stands for all CPUs."""
-    if threads is None:
-        return os.cpu_count() or 1
-    if not (isinstance(threads, int) and 1 <= threads <= 1024):
-        raise _core.Error(f"threads is {threads!r}, expected 1 to 1024")
-    return threads
+    return os.cpu_count() or 1 if threads is None else whole("threads", threads, 1, 1024)
 
 
 class World:
@@ -48,52 +45,88 @@ class World:
     (``concrete``, ``metal``, ``wood``, ``glass``, …) or one defined in the scenario; without it, the
     material is guessed from the name, with a warning. Only the physical models use the world.
 
+    A scenario keeps the world as it was when the scenario was created. Raises Error for a name that another
+    solid has, a name with ``*``, which would be a pattern for the materials of other solids, and sizes that
+    are not over 0 and at most 1e5 m.
+
         hall = tagfield.World()
         hall.box("wall", size_m=(10, 0.2, 4), position_m=(0, 3, 2), material="concrete")
     """
 
     def __init__(self) -> None:
         self._core = _core.World()
+        self._solids: list[tuple] = []  # Calls that make self._core anew.
+        self._is_kept = False
         self.materials: dict[str, str] = {}
 
     def box(self, name: str, size_m: Sequence[float], position_m: Sequence[float],
             rpy_rad: Sequence[float] = (0, 0, 0), material: str | None = None) -> World:
         """Adds a box with edge lengths size_m (3,) [m] and its centre at position_m (3,) [m, world]."""
-        self._core.add_box(name, size_m, position_m, rpy_rad)
-        return self._made_of(name, material)
+        what = f"world: '{name}'"
+        return self._add("add_box", name, material, vector(f"{what}: size_m", size_m),
+                         vector(f"{what}: position_m", position_m), vector(f"{what}: rpy_rad", rpy_rad))
 
     def cylinder(self, name: str, radius_m: float, length_m: float, position_m: Sequence[float],
                  rpy_rad: Sequence[float] = (0, 0, 0), material: str | None = None) -> World:
         """Adds a cylinder along its own z axis, with its centre at position_m (3,) [m, world]."""
-        self._core.add_cylinder(name, radius_m, length_m, position_m, rpy_rad)
-        return self._made_of(name, material)
+        what = f"world: '{name}'"
+        return self._add("add_cylinder", name, material, number(f"{what}: radius_m", radius_m),
+                         number(f"{what}: length_m", length_m), vector(f"{what}: position_m", position_m),
+                         vector(f"{what}: rpy_rad", rpy_rad))
 
     def sphere(self, name: str, radius_m: float, position_m: Sequence[float],
                material: str | None = None) -> World:
         """Adds a sphere with its centre at position_m (3,) [m, world]."""
-        self._core.add_sphere(name, radius_m, position_m)
-        return self._made_of(name, material)
+        what = f"world: '{name}'"
+        return self._add("add_sphere", name, material, number(f"{what}: radius_m", radius_m),
+                         vector(f"{what}: position_m", position_m))
 
     def floor(self, height_m: float = 0.0, name: str = "floor", material: str | None = "concrete") -> World:
         """Adds a floor that fills everything below height_m [m, world]."""
-        self._core.add_floor(name, height_m)
-        return self._made_of(name, material)
+        return self._add("add_floor", name, material, number(f"world: '{name}': height_m", height_m))
 
     def mesh(self, name: str, vertices_m: Any, triangles: Any, position_m: Sequence[float] = (0, 0, 0),
              rpy_rad: Sequence[float] = (0, 0, 0), material: str | None = None) -> World:
         """Adds a triangle mesh: triangles (M, 3) are indices into vertices_m (N, 3) [m]."""
-        self._core.add_mesh(name, vertices_m, triangles, position_m, rpy_rad)
-        return self._made_of(name, material)
+        what = f"world: '{name}'"
+        corners = _numbers(f"{what}: triangles", triangles, "(M, 3) whole numbers")
+        broken = corners[np.mod(corners, 1.0) != 0.0]
+        if len(broken) > 0:
+            raise _core.Error(f"{what}: triangles has {broken[0]}, expected whole numbers: indices into "
+                              "vertices_m")
+        return self._add("add_mesh", name, material, _numbers(f"{what}: vertices_m", vertices_m, "(N, 3) numbers"),
+                         corners.astype(np.int64), vector(f"{what}: position_m", position_m),
+                         vector(f"{what}: rpy_rad", rpy_rad))
 
     @property
     def solids(self) -> list[str]:
         """Names of all solids."""
         return self._core.solids
 
-    def _made_of(self, name: str, material: str | None) -> World:
+    def _add(self, function: str, name: str, material: str | None, *arguments: Any) -> World:
+        if not isinstance(name, str) or "*" in name:
+            raise _core.Error(f"world: the name of a solid is {shown(name)}, expected text without '*', which "
+                              "stands for any characters where materials are given by name")
+        if material is not None and not isinstance(material, str):
+            raise _core.Error(f"world: '{name}': material is {shown(material)}, expected its name")
+        if self._is_kept:
+            self._core, self._is_kept = self._made_anew(), False
+        getattr(self._core, function)(name, *arguments)
+        self._solids.append((function, name, *arguments))
         if material is not None:
             self.materials[name] = material
         return self
+
+    def _made_anew(self) -> _core.World:
+        made = _core.World()
+        for function, *arguments in self._solids:
+            getattr(made, function)(*arguments)
+        return made
+
+    def _kept(self) -> _core.World:
+        """The solids as they are now, for a scenario to keep: solids added later go into a copy."""
+        self._is_kept = True
+        return self._core
 
 
 class Outlet:
@@ -144,21 +177,26 @@ class _Source:
     path: str = ""
     text: str = ""
     name: str = ""
-    world: World | None = None
+    world: _core.World | None = None
     overrides: tuple[tuple[str, str], ...] = ()
     skip_missing: bool = False
     allow_outside: bool = False
 
-    def load(self) -> _core.Loaded:
+    def load(self, what: str) -> _core.Loaded:
+        overrides = list(self.overrides)
         if self.path:
-            return _core.load(self.path, list(self.overrides), self.skip_missing, self.allow_outside)
-        return _core.load_text(self.text, self.name, list(self.overrides),
-                               None if self.world is None else self.world._core)
+            return called(what, _core.load, self.path, overrides, self.skip_missing, self.allow_outside)
+        return called(what, _core.load_text, self.text, self.name, overrides, self.world)
 
     def for_core(self) -> _core.ScenarioSource:
-        return _core.ScenarioSource(self.path, self.text, self.name, list(self.overrides),
-                                    None if self.world is None else self.world._core,
+        return _core.ScenarioSource(self.path, self.text, self.name, list(self.overrides), self.world,
                                     self.skip_missing, self.allow_outside)
+
+    def settled(self) -> _Source:
+        """The same wherever the current folder is; paths in a text are relative to the folder of its name."""
+        if self.path:
+            return replace(self, path=os.path.abspath(self.path))
+        return replace(self, name=os.path.join(os.getcwd(), self.name))
 
 
 class Scenario:
@@ -177,26 +215,31 @@ class Scenario:
 
     def __init__(self, name: str, *, world: World | str | Mapping[str, Any] | None = None,
                  **keys: Any) -> None:
+        if not isinstance(name, str):
+            raise _core.Error(f"scenario: name is {shown(name)}, expected text")
         content: dict[str, Any] = {"name": name, **keys}
         made = world if isinstance(world, World) else None
+        if not isinstance(world, (World, str, os.PathLike, Mapping, type(None))):
+            raise _core.Error(f"scenario: world is {shown(world)}, expected a tagfield.World, a path or a mapping")
         if made is not None and made.materials:
             content["world"] = {"materials": made.materials}
         elif isinstance(world, (str, os.PathLike)):
             content["world"] = {"path": os.fspath(world)}
         elif world is not None and made is None:
             content["world"] = dict(world)
-        self._open(_Source(text=_text_of(content), name=name, world=made))
+        self._open("scenario", _Source(text=_text_of(content), name=name,
+                                       world=None if made is None else made._kept()))
 
     @classmethod
-    def _from(cls, source: _Source) -> Scenario:
+    def _from(cls, what: str, source: _Source) -> Scenario:
         scenario = cls.__new__(cls)
-        scenario._open(source)
+        scenario._open(what, source)
         return scenario
 
-    def _open(self, source: _Source) -> None:
-        self._source = source
-        self._loaded = source.load()
-        tell(self._loaded.warnings)
+    def _open(self, what: str, source: _Source) -> None:
+        self._loaded = source.load(what)
+        self._source = source.settled()
+        self._warnings = tell(self._loaded.warnings)
 
     def __repr__(self) -> str:
         return (f"<tagfield.Scenario {self.name}: {len(self.antennas)} antennas, {len(self.tags)} tags, "
@@ -210,9 +253,11 @@ class Scenario:
 
         Mappings in keywords are merged with the existing values; lists replace them.
         """
-        more = _changes("with_", changes, keys)
+        return self._changed("with_", _changes("with_", changes, keys))
+
+    def _changed(self, what: str, more: Iterable[tuple[str, str]]) -> Scenario:
         source = self._source
-        return Scenario._from(replace(source, overrides=(*source.overrides, *more)))
+        return Scenario._from(what, replace(source, overrides=(*source.overrides, *more)))
 
     @property
     def name(self) -> str:
@@ -244,7 +289,7 @@ class Scenario:
     @property
     def warnings(self) -> list[str]:
         """Warnings about the scenario, which were issued as :class:`TagfieldWarning` on loading."""
-        return self._loaded.warnings
+        return self._warnings
 
     def outlines(self, low_m: float = 0.2, high_m: float = 2.0) -> list[tuple[str, list[np.ndarray]]]:
         """Outlines of the world between two heights [m], seen from above.
@@ -267,8 +312,8 @@ class Scenario:
         progress: called now and then with the completed share, 0 to 1. Ctrl-C ends the run with
             KeyboardInterrupt.
         """
-        scenario, own = self._by(method)
-        seed = scenario._loaded.seed if seed is None else seed
+        scenario, own = self._by("run", method)
+        seed = scenario._loaded.seed if seed is None else seed_of("run", seed)
         done = _core.run_seeds(scenario._loaded, [seed], threads_of(threads), locate, own, list(outlets),
                                progress)
         return Run(scenario, done[0])
@@ -280,8 +325,11 @@ class Scenario:
 
         For the other arguments see :meth:`run`.
         """
-        scenario, own = self._by(method)
-        wanted = list(range(1, seeds + 1)) if isinstance(seeds, int) else list(seeds)
+        scenario, own = self._by("run_many", method)
+        if isinstance(seeds, Iterable):
+            wanted = [seed_of("run_many", seed) for seed in seeds]
+        else:
+            wanted = list(range(1, whole("run_many: seeds", seeds) + 1))
         done = _core.run_seeds(scenario._loaded, wanted, threads_of(threads), locate, own, [], progress)
         return [Run(scenario, one) for one in done]
 
@@ -298,7 +346,8 @@ class Scenario:
         """
         if policy is not None and not robot:
             raise _core.Error("simulation: a policy needs robot=NAME, whom it drives")
-        return Simulation(self, self._loaded.seed if seed is None else seed, robot, policy, list(outlets))
+        seed = self._loaded.seed if seed is None else seed_of("simulation", seed)
+        return Simulation(self, seed, robot, policy, list(outlets))
 
     def explain(self, *, antenna: str = "", tag: str = "", time_s: float = 0.0,
                 seed: int | None = None) -> Explanation:
@@ -306,11 +355,12 @@ class Scenario:
 
         antenna: by default the one with the best link.
         """
-        text, spoken = _core.explain(self._loaded, antenna, tag, time_s,
-                                     self._loaded.seed if seed is None else seed)
+        seed = self._loaded.seed if seed is None else seed_of("explain", seed)
+        text, spoken = called("explain", _core.explain, self._loaded, antenna, tag,
+                              time("explain: time_s", time_s), seed)
         return Explanation(json.loads(text), spoken)
 
-    def coverage(self, *, antennas: Iterable[str] = (), heights_m: Iterable[float] = (),
+    def coverage(self, *, antennas: str | Iterable[str] = (), heights_m: float | Iterable[float] = (),
                  step_m: float | None = None, region_m: Sequence[float] | None = None,
                  time_s: float | None = None, orientation: str | Sequence[float] = (0, 0, 0),
                  tag_profile: str = "", tag: Mapping[str, Any] | None = None, seed: int | None = None,
@@ -327,15 +377,21 @@ class Scenario:
         tag: settings of the tag, such as {"sensitivity_dbm": -20}.
         progress: called now and then with the completed share, 0 to 1.
         """
+        heights = list(heights_m) if isinstance(heights_m, Iterable) else [heights_m]
         asked = {
-            "antennas": list(antennas), "heights_m": list(heights_m), "step_m": step_m, "time_s": time_s,
-            "region": "" if region_m is None else ",".join(map(repr, map(float, region_m))),
+            "antennas": names("coverage: antennas", antennas),
+            "heights_m": [number("coverage: heights_m", height) for height in heights],
+            "step_m": None if step_m is None else number("coverage: step_m", step_m, over=0.0),
+            "time_s": None if time_s is None else time("coverage: time_s", time_s),
+            "region": "" if region_m is None else _listed(vector("coverage: region_m", region_m, 4)),
             "orientation": orientation if isinstance(orientation, str)
-            else ",".join(map(repr, map(float, orientation))),
+            else _listed(vector("coverage: orientation", orientation)),
             "tag_profile": os.fspath(tag_profile),
-            "tag_settings": [f"{key}={_plain(value)}" for key, value in (tag or {}).items()],
-            "seed": seed}
-        return Coverage(self, _core.coverage(self._loaded, asked, threads_of(threads), progress))
+            "tag_settings": [f"{key}={_value_text(value, f'coverage: tag: {key}')}"
+                             for key, value in (tag or {}).items()],
+            "seed": None if seed is None else seed_of("coverage", seed)}
+        return Coverage(self, called("coverage", _core.coverage, self._loaded, asked, threads_of(threads),
+                                     progress))
 
     def link(self, *, antenna: str = "", tag: str = "", time_s: float = 0.0,
              tag_rpy_rad: Sequence[float] = (0, 0, 0)) -> _core.Link:
@@ -344,7 +400,8 @@ class Scenario:
         The tag has the model of `tag` (by default the first) and the orientation `tag_rpy_rad` (roll,
         pitch, yaw). Moving bodies, other readers and neighbouring tags are not included.
         """
-        return _core.link(self._loaded, antenna, tag, time_s, tag_rpy_rad)
+        return called("link", _core.link, self._loaded, antenna, tag, time("link: time_s", time_s),
+                      vector("link: tag_rpy_rad", tag_rpy_rad))
 
     def track(self, seed: int | None = None, *, threads: int | None = None, **keywords: Any) -> Tracks:
         """Simulates the scenario and tracks its moving tags; for keywords see :func:`track`."""
@@ -353,11 +410,11 @@ class Scenario:
         run = self.run(seed, locate=False, threads=threads)
         return track(run.reads, run.poses, scenario=self, threads=threads, **keywords)
 
-    def _by(self, method: _core.Method | str | None) -> tuple[Scenario, _core.Method | None]:
+    def _by(self, what: str, method: _core.Method | str | None) -> tuple[Scenario, _core.Method | None]:
         """The scenario to run, and the user's own method, if any."""
         if isinstance(method, str):
-            return self.with_({"localization.method": method}), None
-        return self, method
+            return self._changed(what, [("localization.method", method)]), None
+        return self, None if method is None else method_of(what, method)
 
 
 def load(path: str | os.PathLike, *, skip_missing: bool = False, allow_outside: bool = False) -> Scenario:
@@ -366,7 +423,22 @@ def load(path: str | os.PathLike, *, skip_missing: bool = False, allow_outside: 
     With ``skip_missing``, models and meshes of the world that are missing or broken are left out with a
     warning. With ``allow_outside``, the world may refer to files outside its folder and the model paths.
     """
-    return Scenario._from(_Source(path=os.fspath(path), skip_missing=skip_missing, allow_outside=allow_outside))
+    if not os.fspath(path):
+        raise _core.Error("load: path is empty, expected a scenario file")
+    return Scenario._from("load", _Source(path=os.fsdecode(path), skip_missing=skip_missing,
+                                          allow_outside=allow_outside))
+
+
+def _numbers(what: str, values: Any, expected: str) -> np.ndarray:
+    """A copy of the values as floats."""
+    try:
+        return np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        raise _core.Error(f"{what} is {shown(values)}, expected {expected}") from None
+
+
+def _listed(numbers: np.ndarray) -> str:
+    return ",".join(map(repr, numbers.tolist()))
 
 
 def _plain(value: Any) -> Any:
@@ -375,30 +447,43 @@ def _plain(value: Any) -> Any:
         return value.tolist()
     if isinstance(value, os.PathLike):
         return os.fspath(value)
-    raise TypeError(f"{type(value).__name__} can't be a value in a scenario")
+    raise TypeError
 
 
-def _dumped(value: Any, indent: int | None = None) -> str:
+def _dumped(value: Any, key: str) -> str:
+    """The value as JSON; `key` says in an Error where it stands."""
     try:
-        return json.dumps(value, default=_plain, ensure_ascii=False, allow_nan=False, indent=indent)
+        return json.dumps(value, default=_plain, ensure_ascii=False, allow_nan=False)
     except (TypeError, ValueError) as error:
-        raise _core.Error(f"scenario: {error}") from None
+        for inner, part in _parts(value, key):
+            _dumped(part, inner)  # Raises for the part that is wrong.
+        expected = "a finite number" if isinstance(error, ValueError) else "a number, text, list or mapping"
+        raise _core.Error(f"{key} is {shown(value)}, expected {expected}") from None
+
+
+def _parts(value: Any, key: str) -> list[tuple[str, Any]]:
+    if isinstance(value, Mapping):
+        return [(f"{key}.{name}", part) for name, part in value.items()]
+    if isinstance(value, (list, tuple)) or np.ndim(value) > 0:
+        return [(f"{key}[{i}]", part) for i, part in enumerate(value)]
+    return []
 
 
 def _text_of(content: Mapping[str, Any]) -> str:
     """The content as JSON, which is valid YAML, with one line per key, antenna and tag."""
     lines = []
     for key, value in content.items():
+        what = f"scenario: {key}"
         if isinstance(value, (list, tuple)):
-            rows = ",\n".join("    " + _dumped(row) for row in value)
-            lines.append(f"  {_dumped(key)}: [\n{rows}\n  ]")
+            rows = ",\n".join("    " + _dumped(row, f"{what}[{i}]") for i, row in enumerate(value))
+            lines.append(f"  {json.dumps(key)}: [\n{rows}\n  ]")
         else:
-            lines.append(f"  {_dumped(key)}: {_dumped(value)}")
+            lines.append(f"  {json.dumps(key)}: {_dumped(value, what)}")
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
-def _value_text(value: Any) -> str:
-    return value if isinstance(value, str) else _dumped(value)
+def _value_text(value: Any, key: str) -> str:
+    return value if isinstance(value, str) else _dumped(value, key)
 
 
 def _changes(what: str, changes: Iterable[str | Mapping[str, Any]],
@@ -411,15 +496,17 @@ def _changes(what: str, changes: Iterable[str | Mapping[str, Any]],
             if not (key and equals and value):
                 raise _core.Error(f"{what}: '{change}': expected key.path=value")
             more.append((key, value))
+        elif isinstance(change, Mapping):
+            more += [(str(key), _value_text(value, f"{what}: {key}")) for key, value in change.items()]
         else:
-            more += [(key, _value_text(value)) for key, value in change.items()]
+            raise _core.Error(f"{what}: {shown(change)} is no change, expected 'key.path=value' or a mapping")
     for key, value in keys.items():
-        more += _flat(key, value)
+        more += _flat(what, key, value)
     return more
 
 
-def _flat(key: str, value: Any) -> list[tuple[str, str]]:
+def _flat(what: str, key: str, value: Any) -> list[tuple[str, str]]:
     """Flattens {"pose": {"sigma_m": 1}} to pose.sigma_m=1."""
     if isinstance(value, Mapping):
-        return [pair for name, inner in value.items() for pair in _flat(f"{key}.{name}", inner)]
-    return [(key, _value_text(value))]
+        return [pair for name, inner in value.items() for pair in _flat(what, f"{key}.{name}", inner)]
+    return [(key, _value_text(value, f"{what}: {key}"))]

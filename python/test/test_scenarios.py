@@ -2,6 +2,10 @@
 """Scenarios and worlds created in Python; links, explanations, coverage maps; stepped simulation."""
 
 import math
+import os
+import signal
+import threading
+import time
 import warnings
 
 import numpy as np
@@ -37,7 +41,10 @@ def test_scenario_takes_numpy():
     ({"tag": []}, "unknown key 'tag'"),
     ({"tags": []}, "no tags"),
     ({"antennas": [{"name": "gate", "pose": [0, 0, 1], "rate_hz": -1}]}, r"antennas\[0\]\.rate_hz"),
-    ({"duration_s": float("nan")}, "scenario: "),
+    ({"duration_s": float("nan")}, "scenario: duration_s is nan, expected a finite number"),
+    ({"tags": [{"id": "t", "position": [0, math.nan, 1]}]}, r"scenario: tags\[0\]\.position\[1\] is nan"),
+    ({"zones": [{"name": {1}}]}, r"scenario: zones\[0\]\.name is \{1\}, expected"),
+    ({"world": 3}, "scenario: world is 3, expected"),
     ({"duration_s": None}, "duration_s"),
 ])
 def test_complaints_name_the_key(keys, said):
@@ -111,10 +118,47 @@ def test_worlds_name_files_outside_only_where_that_is_allowed(tmp_path):
     scenario = hall / "hall.yaml"
     scenario.write_text("world: {path: world.sdf}\nduration_s: 1\nantennas: [{name: a, pose: [0, 0, 1]}]\n"
                         "tags: [{id: t, position: [1, 0, 1]}]\n")
-    with pytest.raises(tagfield.Error, match="--allow-outside"):
+    with pytest.raises(tagfield.Error, match="allow_outside=True"):
         tagfield.load(scenario)
     assert len(tagfield.load(scenario, allow_outside=True).with_(seed=2).run().reads) > 0
-    assert len(tagfield.load(scenario, skip_missing=True).run().reads) > 0
+    with pytest.warns(tagfield.TagfieldWarning, match=r"\(allow_outside=True reads it\): left out"):
+        assert len(tagfield.load(scenario, skip_missing=True).run().reads) > 0
+
+
+def test_a_scenario_keeps_its_world():
+    world = tagfield.World().floor()
+    kept = portal(world=world)
+    world.box("metal_sheet", size_m=(0.02, 3, 3), position_m=(1, 0, 1.5), material="metal")
+    for scenario in (kept, kept.with_(seed=2)):
+        assert len(scenario.run(method="hyperbola").reads) == len(scenario.run().reads) > 0
+    compared = tagfield.bench(kept, ["trilateration"])
+    assert compared.tags()["reads"].tolist() == [len(kept.run(seed=1).reads)]
+    assert len(portal(world=world).run().reads) == 0
+    assert world.solids == ["floor", "metal_sheet"]
+
+
+def test_a_solid_s_name_is_no_pattern():
+    world = tagfield.World()
+    with pytest.raises(tagfield.Error, match=r"name of a solid is 'b\*', expected text without '\*'"):
+        world.box("b*", (1, 1, 1), (5, 5, 0), material="metal")
+    assert world.solids == [] and world.materials == {}
+
+
+def test_paths_stay_what_they_were(tmp_path, monkeypatch):
+    (tmp_path / "row.yaml").write_text("duration_s: 1\nantennas: [{name: a, pose: [0, 0, 1]}]\n"
+                                       "tags: [{id: t, position: [1, 0, 1]}]\n", encoding="utf-8")
+    (tmp_path / "world.sdf").write_text(
+        '<sdf version="1.6"><world name="w"><model name="wall"><static>1</static><link name="l">'
+        '<collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></world></sdf>',
+        encoding="utf-8")
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path)
+    loaded, made = tagfield.load("row.yaml"), portal(world="world.sdf")
+    monkeypatch.chdir("elsewhere")
+    assert "position: [1, 0, 1]" in loaded.text
+    for scenario in (loaded, made):
+        assert len(scenario.with_(seed=2).run(method="trilateration").reads) > 0
+        assert "trilateration" in str(tagfield.bench(scenario, ["trilateration"]))
 
 
 def test_mesh_is_a_wall():
@@ -124,6 +168,60 @@ def test_mesh_is_a_wall():
     assert not portal(world=world).link()(2, 0, 1).heard
     with pytest.raises(tagfield.Error, match="vertex 9"):
         tagfield.World().mesh("m", np.zeros((3, 3)), [[0, 1, 9]])
+    with pytest.raises(tagfield.Error, match="triangles has 1.7, expected whole numbers"):
+        tagfield.World().mesh("m", np.eye(3), [[0, 1, 1.7]])
+
+
+def test_coverage_takes_a_tag_s_settings():
+    scenario = portal()
+    share = {}
+    for dbm in (-20, "-5", np.float64(0)):
+        coverage = scenario.coverage(antennas="gate", heights_m=1, step_m=1, region_m=(-9, -9, 9, 9),
+                                     tag={"sensitivity_dbm": dbm})
+        share[dbm] = coverage.layers[0].share_read
+    assert share[-20] > share["-5"] > share[0.0]
+    with pytest.raises(tagfield.Error, match="coverage: tag: sensitivity_dbm is nan, expected a finite number"):
+        scenario.coverage(step_m=1, tag={"sensitivity_dbm": math.nan})
+    with pytest.raises(tagfield.Error, match="tag sensitivity=1: not a setting of a tag"):
+        scenario.coverage(step_m=1, tag={"sensitivity": 1})
+
+
+@pytest.mark.parametrize("ask, said", [
+    (lambda of: of.link(tag_rpy_rad=(0, 0, math.nan)), "link: tag_rpy_rad is (0, 0, nan), expected 3 finite numbers"),
+    (lambda of: of.link(tag_rpy_rad=(0, 0)), "link: tag_rpy_rad is (0, 0), expected 3 finite numbers"),
+    (lambda of: of.link(time_s=-1), "link: time_s is -1, expected a finite number, 0 or more"),
+    (lambda of: of.link(antenna="nope"), "link: antenna: there is no antenna 'nope' (known: gate)"),
+    (lambda of: of.explain(time_s=math.nan), "explain: time_s is nan, expected a finite number, 0 or more"),
+    (lambda of: of.explain(tag="nope"), "explain: tag: there is no tag 'nope' (known: tag1)"),
+    (lambda of: of.coverage(heights_m=[math.nan]), "coverage: heights_m is nan, expected a finite number"),
+    (lambda of: of.coverage(step_m=-1), "coverage: step_m is -1, expected a finite number, over 0"),
+    (lambda of: of.coverage(time_s=-1), "coverage: time_s is -1, expected a finite number, 0 or more"),
+    (lambda of: of.coverage(region_m=(0, 0, 1)), "coverage: region_m is (0, 0, 1), expected 4 finite numbers"),
+    (lambda of: of.coverage(antennas="nope"), "coverage: antennas: there is no antenna 'nope' (known: gate)"),
+    (lambda of: of.run(seed=-1), "run: seed is -1, expected 0 or more"),
+    (lambda of: of.run(seed=1.5), "run: seed is 1.5, expected a whole number, 0 or more"),
+    (lambda of: of.run(seed=2**64), "run: seed is 18446744073709551616, expected at most 18446744073709551615"),
+    (lambda of: of.run(threads=0), "threads is 0, expected 1 to 1024"),
+    (lambda of: of.run(threads=2.0), "threads is 2.0, expected a whole number, 1 to 1024"),
+    (lambda of: of.run(method=len), "run: method is <built-in function len>, expected a name or a function "
+     'decorated with @tagfield.method("name")'),
+    (lambda of: of.run(method="nope"), "run: localization.method is 'nope', which is not known"),
+    (lambda of: of.run_many(-3), "run_many: seeds is -3, expected 0 or more"),
+    (lambda of: of.with_(3), "with_: 3 is no change, expected 'key.path=value' or a mapping"),
+    (lambda of: of.with_({"pose.sigma_m": math.inf}), "with_: pose.sigma_m is inf, expected a finite number"),
+    (lambda of: tagfield.load(""), "load: path is empty, expected a scenario file"),
+    (lambda of: tagfield.World().box("b", (1, 1), (0, 0, 0)), "world: 'b': size_m is (1, 1), expected 3 finite numbers"),
+])
+def test_arguments_are_checked(ask, said):
+    with pytest.raises(tagfield.Error) as raised:
+        ask(portal())
+    assert str(raised.value).startswith(said)
+    assert "\n" not in str(raised.value)
+
+
+def test_numpy_s_integers_are_integers():
+    assert [run.seed for run in portal().run_many(np.int64(2), threads=np.int64(1))] == [1, 2]
+    assert portal().run(seed=np.uint8(3)).seed == 3
 
 
 def test_coverage_of_a_paper_antenna_is_a_disc():
@@ -244,6 +342,45 @@ def test_policy_drives():
         warehouse().simulation(policy=policy)
     with pytest.raises(tagfield.Error, match="robot"):
         warehouse().simulation(robot="nobody")
+
+
+def test_a_policy_returns_two_velocities():
+    for action in (3, (1, 2, 3), None, ("a", 0)):
+        sim = warehouse().simulation(robot="p3at", policy=lambda time_s: action)
+        with pytest.raises(tagfield.Error, match="policy: returned .* at 0 s, expected two numbers"):
+            sim.step()
+
+
+def test_steps_are_interrupted():
+    sim = portal(duration_s=1e5).simulation()
+    # A shell starts background processes with SIGINT ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    try:
+        timer.start()
+        begin = time.monotonic()
+        with pytest.raises(KeyboardInterrupt):
+            sim.step(10**12)
+        assert time.monotonic() - begin < 2.0
+    finally:
+        timer.join()
+        signal.signal(signal.SIGINT, before)
+    assert 0 < sim.now_s < 1e5
+    assert len(sim.step()) > 10
+
+
+@pytest.mark.parametrize("ask, said", [
+    (lambda sim: sim.step(-1), "step: count is -1, expected 0 or more"),
+    (lambda sim: sim.step(1.5), "step: count is 1.5, expected a whole number"),
+    (lambda sim: sim.run_until(math.nan), "run_until: time_s is nan"),
+    (lambda sim: sim.add_tag("", (0, 0, 1)), "add_tag: tag is '', expected an ID that is not empty"),
+    (lambda sim: sim.add_tag("q", (0, 1)), r"add_tag: position_m is \(0, 1\), expected 3 finite numbers"),
+    (lambda sim: sim.add_tag("q", (0, 1, 1e6)), "add_tag: position_m is .*, expected 3 finite numbers, up to"),
+    (lambda sim: sim.move_tag("tag1", (0, math.nan, 1)), "move_tag: position_m is .*nan"),
+])
+def test_steps_are_checked(ask, said):
+    with pytest.raises(tagfield.Error, match=said):
+        ask(portal().simulation())
 
 
 def test_tags_come_and_go():
