@@ -10,15 +10,14 @@
     tagfield.plot.hall(run)
 
 Lengths are in metres, angles in radians and times in seconds (stamp_ns: nanoseconds), unless a name
-states another unit. An invalid input raises tagfield.Error with the one-line message that the command
-line prints; a suspicious but usable one issues a tagfield.TagfieldWarning.
+states another unit. An invalid input raises tagfield.Error with a one-line message; a suspicious but usable one issues a tagfield.TagfieldWarning.
 See docs/python.md for more.
 """
 
 from . import _core
 from ._bench import Bench, bench
-from ._core import Error, Link, LinkState, Method, Place, Pose, Read
-from ._methods import Estimate, Problem, method
+from ._core import Error, Link, LinkState, Place, Pose, Read
+from ._methods import Estimate, Method, Problem, method
 from ._plan import Plan, plan
 from ._reads import Calibration, calibrate, localize, methods, poses_table, read, reads_table, track
 from ._runs import Coverage, Explanation, Layer, Localization, Run, Scan, Simulation, Tracks, Truth
@@ -27,6 +26,8 @@ from ._tables import Table
 from ._warnings import TagfieldWarning
 
 __version__: str = _core.__version__
+
+Error.__module__ = "tagfield"  # As users know it, and tracebacks print it.
 
 __all__ = [
     "Bench", "Calibration", "Coverage", "Error", "Estimate", "Explanation", "Layer", "Link", "LinkState",

@@ -10,10 +10,23 @@ from typing import Any, Callable, Mapping
 import numpy as np
 
 from . import _core
+from ._checks import number, shown
 
-__all__ = ["Estimate", "Problem", "method"]
+__all__ = ["Estimate", "Method", "Problem", "method"]
 
 Problem = _core.Problem
+
+
+class Method(_core.Method):
+    """A localization method of your own, as tagfield.method() makes one."""
+
+    def __init__(self, name: str, summary: str, function: Callable[[Problem], list[tuple]]) -> None:
+        super().__init__(name, summary, function)
+        self._function = function
+
+    def _named(self, name: str) -> Method:
+        """The same method under another name."""
+        return Method(name, self.summary, self._function)
 
 
 @dataclass
@@ -21,7 +34,8 @@ class Estimate:
     """A position estimate of a tag, as returned by a method of your own.
 
     position_m: x, y [m, world], or x, y, z; without z, the height is :meth:`Problem.height_m`.
-    covariance_m2: covariance of the position [m²], (3, 3) or (2, 2), if the method knows it.
+    covariance_m2: covariance of the position [m²], (3, 3) or (2, 2), if the method knows it; symmetric,
+        without negative eigenvalues.
     expected_error_m: square root of the trace of the horizontal covariance [m]; by default computed
         from covariance_m2. If it exceeds the limit (0.15 m by default), the tag does not count as
         located.
@@ -34,7 +48,7 @@ class Estimate:
     rms_m: float = 0.0
 
 
-def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[Callable], _core.Method]:
+def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[Callable], Method]:
     """Decorator that makes a function a localization method, to run and compare like any other.
 
     With ``per_tag``, the function is called for each tag as ``function(problem, tag, samples)``, with
@@ -47,15 +61,19 @@ def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[C
     Without ``per_tag``, it is called once as ``function(problem)`` and returns a mapping from tag to
     one of these.
 
-    As for all methods, the result is then checked against the phases. In a bench, several threads
-    call the function, but never at the same time.
+    The position is not checked against the phases, as those of built-in methods are. As with any method,
+    a tag is not located if its expected error or rms_m exceeds the limit (0.08 m for rms_m), if its position
+    lies outside the area where tags can be, or if its reads are those of several tags or of a tag that moved.
+    In a bench, several threads call the function, but never at the same time.
+
+    Raises Error for the name of a built-in method.
 
         @tagfield.method("strongest", "where the antenna heard the tag best")
         def strongest(problem, tag, samples):
             return samples["position_m"][samples["rssi_dbm"].argmax(), :2]
     """
 
-    def decorate(function: Callable) -> _core.Method:
+    def decorate(function: Callable) -> Method:
         def locate(problem):
             if per_tag:
                 answers = {}
@@ -66,10 +84,12 @@ def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[C
                 answers = function(problem)
             return _answers(name, problem, answers)
 
-        return _core.Method(name, summary or (function.__doc__ or "").strip().split("\n")[0], locate)
+        return Method(name, summary or (function.__doc__ or "").strip().split("\n")[0], locate)
 
     if not isinstance(name, str) or not name:
         raise _core.Error("a method needs a name: @tagfield.method(\"name\")")
+    if name == "none" or name in dict(_core.methods()):
+        raise _core.Error(f"method: name is '{name}', which Tagfield uses itself: give another")
     return decorate
 
 
@@ -101,9 +121,12 @@ def _several(answer: Any) -> list:
 
 def _place(name: str, problem: Problem, tag: str, answer: Any) -> tuple:
     estimate = answer if isinstance(answer, Estimate) else Estimate(answer)
-    place = np.asarray(estimate.position_m, dtype=float)
+    try:
+        place = np.asarray(estimate.position_m, dtype=float)
+    except (TypeError, ValueError):
+        place = np.empty(0)
     if place.shape not in ((2,), (3,)) or not np.isfinite(place).all():
-        raise _core.Error(f"method '{name}': tag '{tag}': {estimate.position_m!r} is not a position: "
+        raise _core.Error(f"method '{name}': tag '{tag}': {shown(estimate.position_m)} is not a position: "
                           "expected two or three finite numbers [m]")
     if len(place) == 2:
         place = np.append(place, problem.height_m(tag))
@@ -113,11 +136,20 @@ def _place(name: str, problem: Problem, tag: str, answer: Any) -> tuple:
         if given.shape not in ((2, 2), (3, 3)) or not np.isfinite(given).all():
             raise _core.Error(f"method '{name}': tag '{tag}': covariance_m2 must be (2, 2) or (3, 3) and "
                               "finite")
+        if not _is_covariance(given):
+            raise _core.Error(f"method '{name}': tag '{tag}': covariance_m2 is {shown(given.tolist())}, expected a "
+                              "symmetric matrix without negative eigenvalues")
         covariance = np.zeros((3, 3))
         covariance[:len(given), :len(given)] = given
     expected = estimate.expected_error_m
     if expected is None:
         expected = 0.0 if covariance is None else math.sqrt(max(covariance[0, 0] + covariance[1, 1], 0.0))
-    if not (math.isfinite(expected) and expected >= 0.0 and math.isfinite(estimate.rms_m)):
-        raise _core.Error(f"method '{name}': tag '{tag}': expected_error_m and rms_m must be finite")
+    for key, value in (("expected_error_m", expected), ("rms_m", estimate.rms_m)):
+        number(f"method '{name}': tag '{tag}': {key}", value, 0.0)
     return place, covariance, float(expected), float(estimate.rms_m)
+
+
+def _is_covariance(given: np.ndarray) -> bool:
+    """Whether the matrix is symmetric and has no negative eigenvalue, but for rounding."""
+    rounding = 1e-9 * np.abs(given).max()
+    return np.abs(given - given.T).max() <= rounding and np.linalg.eigvalsh(given).min() >= -rounding

@@ -141,8 +141,12 @@ def test_methods_say_what_they_like(run):
 
 
 @pytest.mark.parametrize("answer, said", [
-    ((1.0, np.nan), "is not a position"), ((1.0,), "is not a position"),
+    ((1.0, np.nan), "is not a position"), ((1.0,), "is not a position"), ({}, "{} is not a position"),
     (tagfield.Estimate((1, 2), covariance_m2=[1, 2]), "covariance_m2"),
+    (tagfield.Estimate((1, 2), covariance_m2=[[1, 0], [0, -1]]), "covariance_m2 is .*, expected a symmetric"),
+    (tagfield.Estimate((1, 2), covariance_m2=[[1, 0.5], [0, 1]]), "covariance_m2 is .*, expected a symmetric"),
+    (tagfield.Estimate((1, 2), rms_m=-1), "rms_m is -1, expected a finite number, 0 or more"),
+    (tagfield.Estimate((1, 2), expected_error_m=np.nan), "expected_error_m is nan"),
 ])
 def test_methods_are_checked(run, answer, said):
     with pytest.raises(tagfield.Error, match=said):
@@ -174,6 +178,66 @@ def test_bench_compares_own_methods(scenario):
     assert (rows["tags"] == 10).all()
     assert {"seed", "tag", "error_m"} <= set(compared.tags().columns)
     assert "strongest" in str(compared)
+
+
+def shifted(scenario, by_m, name="mine"):
+    return tagfield.method(name)(lambda problem, tag, samples: scenario.tags[tag] + [by_m, 0, 0])
+
+
+def test_bench_tells_methods_of_the_same_name_apart(scenario):
+    near, far = shifted(scenario, 0.0), shifted(scenario, 0.1)
+    rows = tagfield.bench(scenario, [("0 mm", near, {}), ("100 mm", far, {}), ("same", near, {})]).to_pandas()
+    assert rows["name"].tolist() == ["0 mm", "100 mm", "same"]
+    assert rows["method"].tolist() == ["mine", "mine 2", "mine"]
+    np.testing.assert_allclose(rows["mean_m"], [0, 0.1, 0], atol=1e-12)
+    for methods in ([near, far], ["sar", "sar"]):
+        with pytest.raises(tagfield.Error, match="bench: two methods are called '(mine|sar)': give them labels"):
+            tagfield.bench(scenario, methods)
+
+
+def test_names_of_methods_of_one_s_own_are_free_but_for_those_in_use(scenario):
+    for name in ("sar", "auto", "none"):
+        with pytest.raises(tagfield.Error, match=f"method: name is '{name}', which Tagfield uses itself"):
+            tagfield.method(name)
+    names = ["a, b: #[", "null", "Wände"]
+    rows = tagfield.bench(scenario, [shifted(scenario, 0.1 * i, name) for i, name in enumerate(names)]).to_pandas()
+    assert rows["name"].tolist() == names
+    np.testing.assert_allclose(rows["mean_m"], [0, 0.1, 0.2], atol=1e-12)
+
+
+def test_a_suite_takes_methods_with_labels(scenario, tmp_path):
+    suite = tmp_path / "suite.yaml"
+    path = tagfield.share("scenarios/paper_warehouse.yaml")
+    suite.write_text(f"name: s\nmethods: [hyperbola]\nconditions: [{{name: c, scenario: {path}}}]\n", encoding="utf-8")
+    rows = tagfield.bench(suite, [("near", shifted(scenario, 0.0), {}), ("far", shifted(scenario, 0.1), {})]).to_pandas()
+    assert rows["name"].tolist() == ["hyperbola", "near", "far"]
+    np.testing.assert_allclose(rows["mean_m"][1:], [0, 0.1], atol=1e-12)
+
+
+@pytest.mark.parametrize("methods, keywords, said", [
+    (["sar"], {"seeds": 0}, "bench: seeds is 0, expected 1 or more"),
+    (["sar"], {"seeds": -1}, "bench: seeds is -1, expected 1 or more"),
+    (["sar"], {"first_seed": -1}, "bench: first_seed is -1, expected 0 or more"),
+    (["sar"], {"phase_noise_rad": -1}, "bench: phase_noise_rad is -1, expected a finite number, 0 or more"),
+    (["sar"], {"phase_noise_rad": np.nan}, "bench: phase_noise_rad is nan, expected a finite number"),
+    (["sar"], {"conditions": {"a": "pose.source=noisy"}}, "bench: condition 'a' is 'pose.source=noisy', expected"),
+    (["sar"], {"conditions": ["a"]}, r"bench: conditions is \['a'\], expected a mapping"),
+    (["sar"], {"conditions": {"a": {"pose.sigma_m": np.nan}}}, "bench: pose.sigma_m is nan"),
+    (None, {}, "bench: methods is None, expected a list"),
+    ([("label", "sar")], {}, r"bench: \('label', 'sar'\) is no method"),
+    ([len], {}, "bench: <built-in function len> is no method"),
+    ([("label", strongest, {"stride_m": 1})], {}, "bench: 'label' takes no settings"),
+])
+def test_bench_is_checked(scenario, methods, keywords, said):
+    with pytest.raises(tagfield.Error, match=said):
+        tagfield.bench(scenario, methods, **keywords)
+
+
+def test_bench_takes_one_method(scenario):
+    assert tagfield.bench(scenario, "trilateration").to_pandas()["name"].tolist() == ["trilateration"]
+    assert tagfield.bench(scenario, strongest).to_pandas()["name"].tolist() == ["strongest"]
+    with pytest.raises(tagfield.Error, match="nofile: no such file"):
+        tagfield.bench("nofile", ["sar"])
 
 
 def test_bench_takes_scenarios_made_here():
@@ -208,7 +272,7 @@ tags: [{id: t, position: [1.5, 2, 1]}]
     suite = tmp_path / "here/suite.yaml"
     suite.write_text("name: s\nmethods: [hyperbola]\nseeds: 2\nconditions: [{name: row, scenario: row.yaml}]\n",
                      encoding="utf-8")
-    with pytest.raises(tagfield.Error, match="--allow-outside"):
+    with pytest.raises(tagfield.Error, match="allow_outside=True"):
         tagfield.bench(suite)
     compared = tagfield.bench(suite, allow_outside=True, first_seed=7)
     assert compared.tags()["seed"].tolist() == [7, 8]

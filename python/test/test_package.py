@@ -4,6 +4,7 @@
 import ast
 import inspect
 import pathlib
+import pickle
 
 import matplotlib
 
@@ -46,6 +47,11 @@ def test_stubs_are_what_is_there():
     for name, members in declared.items():
         if members is not None and name != "Error":
             assert members == {one for one in vars(getattr(_core, name)) if not one.startswith("_")}, name
+
+
+def test_errors_are_called_what_users_call_them():
+    assert f"{tagfield.Error.__module__}.{tagfield.Error.__qualname__}" == "tagfield.Error"
+    assert isinstance(pickle.loads(pickle.dumps(tagfield.Error("no"))), tagfield.Error)
 
 
 def public_things():
