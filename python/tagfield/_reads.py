@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Mapping
 import numpy as np
 
 from . import _core
+from ._checks import called, method_of, number, shown, suggestion, vector
 from ._runs import Localization, Tracks
 from ._scenario import share, threads_of
 from ._tables import Table
@@ -41,7 +42,7 @@ def read(reads: str | os.PathLike, poses: str | os.PathLike | None = None,
     form = format
     if form and not Path(form).suffix and os.sep not in form and not Path(form).exists():
         form = share(f"profiles/datasets/{form}.yaml")
-    tables = _core.read(os.fspath(reads), "" if poses is None else os.fspath(poses), form)
+    tables = called("read", _core.read, os.fspath(reads), "" if poses is None else os.fspath(poses), form)
     return tables["reads"], tables["poses"]
 
 
@@ -50,19 +51,22 @@ def reads_table(columns: Any) -> Table:
 
     Required columns are time_s or stamp_ns, antenna, tag and phase_rad (increasing with distance).
     Optional ones are frequency_hz (default 866.5 MHz), rssi_dbm (default -60), reader and doppler_hz.
+    Stamps may be datetime64 or timedelta64 of any unit. Other columns than the stamps may be one value for
+    all rows. Raises Error for a column that is missing or of another length, and for a stamp or name that is
+    missing.
     """
     stamps = _stamps(columns, "reads")
     table = np.zeros(len(stamps), _core.read_dtype())
     table["stamp_ns"] = stamps
     defaults = {"frequency_hz": 866.5e6, "rssi_dbm": -60.0, "doppler_hz": np.nan}
     for column in ("phase_rad", "frequency_hz", "rssi_dbm", "doppler_hz"):
-        table[column] = _numbers(columns, column, "reads", defaults.get(column))
+        table[column] = _numbers(columns, column, "reads", len(stamps), defaults.get(column))
     categories = {}
     for column in ("reader", "antenna", "tag"):
-        names = columns[column] if column in columns else np.full(len(stamps), "reader")
         if column not in columns and column != "reader":
             raise _core.Error(f"reads: there is no column '{column}'")
-        table[column], categories[column] = _numbered(names)
+        names = columns[column] if column in columns else "reader"
+        table[column], categories[column] = _numbered(names, column, "reads", len(stamps))
     return Table(table, categories)
 
 
@@ -70,17 +74,20 @@ def poses_table(columns: Any) -> Table:
     """Makes a table of antenna poses from a pandas.DataFrame or a mapping from column to array (N,).
 
     Required columns are time_s or stamp_ns, antenna (or name), x_m, y_m and z_m [m, world]. Optional
-    ones are qx, qy, qz, qw (default: no rotation). A fixed antenna needs only one row.
+    ones are qx, qy, qz, qw (default: no rotation). A fixed antenna needs only one row. For stamps and
+    errors see :func:`reads_table`.
     """
     stamps = _stamps(columns, "poses")
     table = np.zeros(len(stamps), _core.pose_dtype())
     table["stamp_ns"] = stamps
-    names = columns["antenna"] if "antenna" in columns else columns["name"]
-    table["name"], known = _numbered(names)
+    column = next((one for one in ("antenna", "name") if one in columns), None)
+    if column is None:
+        raise _core.Error("poses: there is no column 'antenna' or 'name'")
+    table["name"], known = _numbered(columns[column], column, "poses", len(stamps))
     for i, axis in enumerate("xyz"):
-        table["position_m"][:, i] = _numbers(columns, f"{axis}_m", "poses")
+        table["position_m"][:, i] = _numbers(columns, f"{axis}_m", "poses", len(stamps))
     for i, axis in enumerate("xyzw"):
-        table["quaternion_xyzw"][:, i] = _numbers(columns, f"q{axis}", "poses", float(axis == "w"))
+        table["quaternion_xyzw"][:, i] = _numbers(columns, f"q{axis}", "poses", len(stamps), float(axis == "w"))
     table["covariance"] = np.nan
     return Table(table, {"name": known})
 
@@ -118,15 +125,19 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
     pi_ambiguity: whether phases have the π ambiguity.
     """
     _refuse_unknown("localize", known, _KNOWN)
-    own = method if isinstance(method, _core.Method) else None
-    name = method.name if own is not None else method
+    loaded = _loaded_of("localize", scenario)
+    own = None if method is None or isinstance(method, str) else method_of("localize", method)
+    name = method if own is None else own.name
     if name is None:
-        name = "auto" if scenario is None else scenario._loaded.method
+        name = "auto" if loaded is None else loaded.method
     pairs = [(key, value if isinstance(value, str) else _plain_text(value))
              for key, value in (settings or {}).items()]
-    return Localization(_core.localize(
-        _reads_argument(reads), _poses_argument(poses), _truth_argument(truth), name, own, pairs,
-        None if scenario is None else scenario._loaded, _listed(known), threads_of(threads)))
+    of_reads = _reads_table(reads)
+    listed = _listed("localize", known)
+    located = called("localize", _core.localize, _reads_argument(of_reads), _poses_argument(poses),
+                     _truth_argument(truth), name, own, pairs, loaded, listed, threads_of(threads))
+    unread = _unread(listed.get("reference_tags") or {}, of_reads)
+    return Localization({**located, "warnings": [*unread, *located["warnings"]]})
 
 
 def track(reads: Any, poses: Any, *, scenario: Scenario | None = None, threads: int | None = None,
@@ -144,9 +155,9 @@ def track(reads: Any, poses: Any, *, scenario: Scenario | None = None, threads: 
     tag_height_m, tag_heights_m, offset_rad, offsets_rad: see :func:`localize`.
     """
     _refuse_unknown("track", known, _TRACK)
-    return Tracks(_core.track(_reads_argument(reads), _poses_argument(poses),
-                              None if scenario is None else scenario._loaded, _listed(known),
-                              threads_of(threads)))
+    return Tracks(called("track", _core.track, _reads_argument(_reads_table(reads)),
+                         _poses_argument(poses), _loaded_of("track", scenario), _listed("track", known),
+                         threads_of(threads)))
 
 
 @dataclass(frozen=True)
@@ -185,11 +196,13 @@ def calibrate(reads: Any, poses: Any, tags: Mapping[str, Any], *, phase_centre_s
     phase_centre_sigma_m: prior standard deviation of the phase centre's position, per axis.
     time_sigma_s: prior standard deviation of the time offset.
     """
-    places = {tag: np.asarray(place, dtype=float) for tag, place in tags.items()}
-    return Calibration(**_core.calibrate(_reads_argument(reads), _poses_argument(poses), places,
-                                         phase_centre_sigma_m, time_sigma_s, threads_of(threads)))
+    return Calibration(**called("calibrate", _core.calibrate, _reads_argument(_reads_table(reads)),
+                                _poses_argument(poses), _places("calibrate: tags", tags),
+                                number("calibrate: phase_centre_sigma_m", phase_centre_sigma_m, 0.0),
+                                number("calibrate: time_sigma_s", time_sigma_s, 0.0), threads_of(threads)))
 
 
+_LATEST_NS = 2**63 - 1
 _HEIGHTS = {"tag_height_m", "tag_heights_m", "height", "offset_rad", "offsets_rad"}
 _KNOWN = _HEIGHTS | {"side", "box_m", "reference_tags", "pose_sigma_m", "pose_yaw_sigma_deg",
                      "pose_time_constant_s", "world_sigma_m", "max_expected_error_m", "pi_ambiguity"}
@@ -202,12 +215,34 @@ def _refuse_unknown(function: str, given: Mapping[str, Any], known: set[str]) ->
             raise TypeError(f"{function}() has no keyword '{key}'; these are: {', '.join(sorted(known))}")
 
 
-def _listed(known: Mapping[str, Any]) -> dict[str, Any]:
+def _places(what: str, places: Any) -> dict[str, np.ndarray]:
+    """Positions (3,) by tag."""
+    if not isinstance(places, Mapping):
+        raise _core.Error(f"{what} is {shown(places)}, expected a mapping from tag to position (3,) [m, world]")
+    return {str(tag): vector(f"{what}: '{tag}'", place) for tag, place in places.items()}
+
+
+def _loaded_of(function: str, scenario: Any) -> _core.Loaded | None:
+    if scenario is None:
+        return None
+    if not hasattr(scenario, "_loaded"):
+        raise _core.Error(f"{function}: scenario is {shown(scenario)}, expected a tagfield.Scenario")
+    return scenario._loaded
+
+
+def _unread(references: Mapping[str, Any], reads: Table) -> list[str]:
+    """Warnings about reference tags that were not read."""
+    known = reads.categories["tag"]
+    return [f"localize: reference_tags: there are no reads of tag '{tag}'{suggestion(tag, known)}"
+            for tag in references if not reads._are("tag", [tag]).any()]
+
+
+def _listed(function: str, known: Mapping[str, Any]) -> dict[str, Any]:
     """The keywords with NumPy arrays as lists, and positions as arrays."""
     plain = {}
     for key, value in known.items():
         if key == "reference_tags" and value is not None:
-            value = {tag: np.asarray(place, dtype=float) for tag, place in value.items()}
+            value = _places(f"{function}: reference_tags", value)
         elif isinstance(value, (np.ndarray, tuple)):
             value = np.asarray(value).tolist() if key != "speed_m_s" else tuple(value)
         plain[key] = value
@@ -225,28 +260,79 @@ def _has_columns(data: Any) -> bool:
 
 
 def _stamps(columns: Any, what: str) -> np.ndarray:
-    if "stamp_ns" in columns:
-        return np.asarray(columns["stamp_ns"], dtype=np.int64)
-    for name in ("time_s", "stamp_s"):
-        if name in columns:
-            seconds = np.asarray(columns[name], dtype=float)
-            if not np.isfinite(seconds).all() or (np.abs(seconds) > 4.6e9).any():
-                raise _core.Error(f"{what}: {name} must be finite, and within 4.6e9 s")
-            return np.round(seconds * 1e9).astype(np.int64)
-    raise _core.Error(f"{what}: there is no column 'time_s' or 'stamp_ns'")
+    name = next((one for one in ("stamp_ns", "time_s", "stamp_s") if one in columns), None)
+    if name is None:
+        raise _core.Error(f"{what}: there is no column 'time_s' or 'stamp_ns'")
+    values = _dated(columns[name])
+    if values.ndim != 1:
+        raise _core.Error(f"{what}: {name} has shape {values.shape}, expected (N,)")
+    if values.dtype.kind in "mM":
+        return _nanoseconds(values, f"{what}: {name}")
+    if name == "stamp_ns" and values.dtype.kind in "iu" and (values <= _LATEST_NS).all():
+        return values.astype(np.int64)
+    stamps_ns = _floats(values, f"{what}: {name}") * (1.0 if name == "stamp_ns" else 1e9)
+    if not np.isfinite(stamps_ns).all() or (np.abs(stamps_ns) > 4.6e18).any():
+        raise _core.Error(f"{what}: {name} must be finite, and within 4.6e9 s")
+    return np.round(stamps_ns).astype(np.int64)
 
 
-def _numbers(columns: Any, column: str, what: str, otherwise: float | None = None) -> Any:
+def _dated(values: Any) -> np.ndarray:
+    """The values as an array; dates and times of pandas with a time zone become UTC."""
+    array = np.asarray(values)
+    if array.dtype.kind == "O" and array.size > 0 and hasattr(array.flat[0], "tzinfo"):
+        return np.asarray(values, dtype="datetime64[ns]")
+    return array
+
+
+def _nanoseconds(values: np.ndarray, what: str) -> np.ndarray:
+    """datetime64 or timedelta64 of any unit in nanoseconds."""
+    if np.isnat(values).any():
+        raise _core.Error(f"{what}: row {np.isnat(values).argmax()} has no time")
+    kind = values.dtype.kind
+    try:
+        seconds = values.astype(f"{kind}8[s]").astype(np.int64)
+    except TypeError:
+        raise _core.Error(f"{what} is of type {values.dtype}, which is no fixed time") from None
+    if (np.abs(seconds) > 4.6e9).any():
+        raise _core.Error(f"{what} must be within 4.6e9 s")
+    return values.astype(f"{kind}8[ns]").astype(np.int64)
+
+
+def _floats(values: Any, what: str) -> np.ndarray:
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise _core.Error(f"{what} is {shown(values)}, expected numbers") from None
+
+
+def _numbers(columns: Any, column: str, what: str, rows: int, otherwise: float | None = None) -> Any:
     if column in columns:
-        return np.asarray(columns[column], dtype=float)
+        values = _floats(columns[column], f"{what}: {column}")
+        _require_rows(values, f"{what}: {column}", rows)
+        return values
     if otherwise is None:
         raise _core.Error(f"{what}: there is no column '{column}'")
     return otherwise
 
 
-def _numbered(names: Any) -> tuple[np.ndarray, tuple[str, ...]]:
-    known, numbers = np.unique(np.asarray(names, dtype=str), return_inverse=True)
-    return numbers, tuple(known.tolist())
+def _numbered(names: Any, column: str, what: str, rows: int) -> tuple[np.ndarray, tuple[str, ...]]:
+    """The names in a column as numbers, and the names by number."""
+    values = np.asarray(names) if hasattr(names, "dtype") else np.asarray(names, dtype=object)
+    _require_rows(values, f"{what}: {column}", rows)
+    if values.dtype.kind in "fO":
+        for row, value in enumerate(values.flat):
+            if value is None or type(value).__name__ == "NAType" or value != value:
+                raise _core.Error(f"{what}: {column}: row {row} is {value}, expected a name")
+    known, numbers = np.unique(values.astype(str), return_inverse=True)
+    return numbers.reshape(values.shape), tuple(known.tolist())
+
+
+def _require_rows(values: np.ndarray, what: str, rows: int) -> None:
+    """One value for each row, or one for all of them."""
+    if values.ndim == 0 or values.shape == (rows,):
+        return
+    has = f"{len(values)} rows" if values.ndim == 1 else f"shape {values.shape}"
+    raise _core.Error(f"{what} has {has}, but there are {rows} stamps")
 
 
 def _table_of(data: Any, dtype: np.dtype, what: str, make: Any) -> Table:
@@ -258,8 +344,11 @@ def _table_of(data: Any, dtype: np.dtype, what: str, make: Any) -> Table:
     return Table(np.ascontiguousarray(data.reshape(-1)), data.categories)
 
 
-def _reads_argument(reads: Any) -> _core.ReadsArgument:
-    table = _table_of(reads, _core.read_dtype(), "reads", reads_table)
+def _reads_table(reads: Any) -> Table:
+    return _table_of(reads, _core.read_dtype(), "reads", reads_table)
+
+
+def _reads_argument(table: Table) -> _core.ReadsArgument:
     names = table.categories
     return _core.ReadsArgument(table, names["reader"], names["antenna"], names["tag"])
 
@@ -272,9 +361,9 @@ def _poses_argument(poses: Any) -> _core.PosesArgument:
 def _truth_argument(truth: Any) -> _core.TruthArgument:
     if isinstance(truth, Table):
         return _core.TruthArgument(np.ascontiguousarray(truth), truth.categories["tag"])
-    places = truth or {}
+    places = {} if truth is None else _places("truth", truth)
     table = np.zeros(len(places), _core.place_dtype())
     table["tag"] = np.arange(len(places))
     if places:
-        table["position_m"] = [np.asarray(place, dtype=float) for place in places.values()]
+        table["position_m"] = list(places.values())
     return _core.TruthArgument(table, list(places))

@@ -6,6 +6,7 @@ import signal
 import time
 
 import numpy as np
+import pandas
 import pytest
 
 import tagfield
@@ -99,6 +100,65 @@ def test_what_is_known_is_checked(run):
     spoilt["tag"][7] = 99
     with pytest.raises(tagfield.Error, match="row 7: tag is 99"):
         tagfield.localize(spoilt, run.poses)
+
+
+def columns(**changed):
+    return {"time_s": [0.0, 1.0], "antenna": ["a", "a"], "tag": ["t", "u"], "phase_rad": [1.0, 2.0], **changed}
+
+
+@pytest.mark.parametrize("dates", [
+    lambda ns: ns.astype("datetime64[us]"), lambda ns: ns.astype("datetime64[ms]"), lambda ns: ns,
+    lambda ns: ns - np.datetime64(0, "ns"),
+    lambda ns: pandas.Series(ns).dt.tz_localize("UTC").dt.tz_convert("Asia/Tokyo"),
+])
+@pytest.mark.parametrize("column", ["time_s", "stamp_ns"])
+def test_dates_are_stamps_of_their_unit(dates, column):
+    stamps = np.array(["2024-05-06T07:08:09.123", "2024-05-06T07:08:10"], dtype="datetime64[ns]")
+    table = tagfield.reads_table({column: dates(stamps), **{k: v for k, v in columns().items() if k != "time_s"}})
+    assert table["stamp_ns"].tolist() == stamps.astype(np.int64).tolist()
+
+
+@pytest.mark.parametrize("changed, said", [
+    ({"tag": ["t", None]}, "reads: tag: row 1 is None, expected a name"),
+    ({"tag": ["t", np.nan]}, "reads: tag: row 1 is nan, expected a name"),
+    ({"antenna": pandas.Series([pandas.NA, "a"])}, "reads: antenna: row 0 is <NA>, expected a name"),
+    ({"time_s": [0.0, np.nan]}, "reads: time_s must be finite"),
+    ({"stamp_ns": [0.0, np.nan]}, "reads: stamp_ns must be finite"),
+    ({"time_s": np.array(["2024-05-06", "NaT"], dtype="datetime64[us]")}, "reads: time_s: row 1 has no time"),
+    ({"phase_rad": [1.0, 2.0, 3.0]}, "reads: phase_rad has 3 rows, but there are 2 stamps"),
+    ({"rssi_dbm": [-60.0]}, "reads: rssi_dbm has 1 rows, but there are 2 stamps"),
+    ({"tag": ["t"]}, "reads: tag has 1 rows, but there are 2 stamps"),
+    ({"phase_rad": ["one", "two"]}, "reads: phase_rad is .*, expected numbers"),
+])
+def test_columns_are_checked(changed, said):
+    with pytest.raises(tagfield.Error, match=said):
+        tagfield.reads_table(columns(**changed))
+
+
+def test_one_value_stands_for_all_rows():
+    table = tagfield.reads_table(columns(antenna="a", frequency_hz=866e6))
+    assert table.names("antenna").tolist() == ["a", "a"]
+    assert table["frequency_hz"].tolist() == [866e6, 866e6]
+
+
+def test_what_is_known_of_tags_is_checked(run):
+    place = (1.0, 2.0, 0.8)
+    with pytest.warns(tagfield.TagfieldWarning, match=r"reference_tags: there are no reads of tag 'tga3' \(did you"):
+        found = tagfield.localize(run.reads, run.poses, "trilateration", reference_tags={"tga3": place}, tag_height_m=1)
+    assert "tga3" in found.warnings[0]
+    for ask, said in (
+            (lambda: tagfield.localize(run.reads, run.poses, reference_tags={"tag3": (1, 2)}),
+             r"localize: reference_tags: 'tag3' is \(1, 2\), expected 3 finite numbers"),
+            (lambda: tagfield.localize(run.reads, run.poses, truth={"tag3": (1, 2)}), r"truth: 'tag3' is \(1, 2\)"),
+            (lambda: tagfield.localize(run.reads, run.poses, truth=run.truth.tags.to_pandas()), "truth is .*, expected"),
+            (lambda: tagfield.localize(run.reads, run.poses, len), "localize: method is <built-in function len>"),
+            (lambda: tagfield.localize(run.reads, run.poses, scenario="x"), "localize: scenario is 'x', expected"),
+            (lambda: tagfield.calibrate(run.reads, run.poses, {"tag3": (1, 2)}), r"calibrate: tags: 'tag3' is \(1, 2\)"),
+            (lambda: tagfield.poses_table({"time_s": [0.0], "x_m": [0], "y_m": [0], "z_m": [0]}),
+             "poses: there is no column 'antenna' or 'name'"),
+            (lambda: tagfield.read("nofile.csv"), "read: reads as CSV need poses=FILE, .*, or a format that")):
+        with pytest.raises(tagfield.Error, match=said):
+            ask()
 
 
 def test_own_method_is_one_like_others(scenario, run):
