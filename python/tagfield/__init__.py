@@ -10,7 +10,8 @@
     tagfield.plot.hall(run)
 
 Lengths are in metres, angles in radians and times in seconds (stamp_ns: nanoseconds), unless a name
-states another unit. An invalid input raises tagfield.Error with a one-line message; a suspicious but usable one issues a tagfield.TagfieldWarning.
+states another unit. An invalid input raises tagfield.Error with a one-line message; a suspicious but
+usable one issues a tagfield.TagfieldWarning.
 See docs/python.md for more.
 """
 

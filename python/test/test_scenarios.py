@@ -149,8 +149,8 @@ def test_paths_stay_what_they_were(tmp_path, monkeypatch):
                                        "tags: [{id: t, position: [1, 0, 1]}]\n", encoding="utf-8")
     (tmp_path / "world.sdf").write_text(
         '<sdf version="1.6"><world name="w"><model name="wall"><static>1</static><link name="l">'
-        '<collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></world></sdf>',
-        encoding="utf-8")
+        '<collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>'
+        "</link></model></world></sdf>", encoding="utf-8")
     (tmp_path / "elsewhere").mkdir()
     monkeypatch.chdir(tmp_path)
     loaded, made = tagfield.load("row.yaml"), portal(world="world.sdf")
