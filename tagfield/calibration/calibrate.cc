@@ -272,12 +272,18 @@ double scatter_of(const std::vector<TagOffset>& by_tag) {
   return freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0;
 }
 
-/// nullopt if random phases would fit equally well.
+/// Noise at which the phasors' mean is half as long as without [rad]: wrong positions of tags leave
+/// residuals of that size that depend on each other, so that evidence against random phases, which
+/// are independent, proves nothing.
+constexpr double kMaxCredibleNoise = 1.18;
+
+/// nullopt if random phases, or those of tags elsewhere, would fit equally well.
 std::optional<AntennaCalibration> calibration_of(const AntennaData& data,
                                                  const CalibrationOptions& options,
                                                  bool pi_ambiguity) {
   const double whole = duration_of(data) + 1.0;
   Fit fit = fine_fit(data, options);
+  if (fit.noise_rad > kMaxCredibleNoise) return std::nullopt;
   if (!(evidence_of(data, options, intervals_of(data, whole, false), fit) >= kMinEvidence)) {
     return std::nullopt;
   }

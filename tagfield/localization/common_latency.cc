@@ -301,7 +301,7 @@ void refuse_moved(const LocalizationProblem& problem, double late_s, Localizatio
 
 void refuse_common_latency(const LocalizationProblem& problem, int threads,
                            LocalizationResult& result, Diagnostics& diagnostics) {
-  if (!result.corrected_poses.empty() && !has_exact_poses(problem)) return;
+  if (!result.corrected_poses.empty() && stated_pose_error(problem)) return;
   if (!latency_by(problem, threads, result, kFewReads, kSuspicious)) return;
   const std::optional<double> late_s = latency_by(problem, threads, result, kManyReads, kCertain);
   if (!late_s) return;

@@ -14,7 +14,7 @@ namespace tagfield {
 /// more than chance achieves in one case in ten thousand, and for at least half of these tags. Amid
 /// reflections the phases of a single tag hardly reveal a latency (at_rest.h). A warning reports
 /// it. The search covers latencies over which the antennas travel up to 1.2 m. Does not apply to
-/// methods that correct poses.
+/// methods that correct poses by a stated error, which may look like a latency.
 void refuse_common_latency(const LocalizationProblem& problem, int threads,
                            LocalizationResult& result, Diagnostics& diagnostics);
 

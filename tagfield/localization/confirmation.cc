@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "tagfield/base/median.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/holograms/robust.h"
 #include "tagfield/localization/judgement.h"
@@ -59,14 +60,48 @@ std::vector<std::size_t> doubtful(const LocalizationProblem& problem,
   return numbers;
 }
 
+/// Indices of the estimates with residuals far larger than those of most others, whose positions or
+/// motion the poses corrected with them do not fit.
+std::vector<std::size_t> misfitting(const LocalizationProblem& problem,
+                                    const LocalizationResult& result) {
+  constexpr std::size_t kFewest = 4;
+  constexpr double kTimesTheMedian = 2.0;
+  std::vector<double> misfits_m;
+  for (const TagEstimate& estimate : result.estimates) {
+    if (estimate.verdict != Verdict::kLocated) continue;
+    if (problem.reference_tags.count(estimate.tag) > 0) continue;
+    misfits_m.push_back(estimate.candidates.front().rms_m);
+  }
+  std::vector<std::size_t> numbers;
+  if (misfits_m.size() < kFewest) return numbers;
+  const double most = kTimesTheMedian * median(misfits_m);
+  for (std::size_t i = 0; i < result.estimates.size(); ++i) {
+    const TagEstimate& estimate = result.estimates[i];
+    if (estimate.verdict != Verdict::kLocated || problem.samples.count(estimate.tag) == 0) continue;
+    if (problem.reference_tags.count(estimate.tag) > 0) continue;
+    if (estimate.candidates.front().rms_m > most) numbers.push_back(i);
+  }
+  return numbers;
+}
+
+bool corrects_poses(const LocalizationProblem& problem, const std::string& method) {
+  return method == "joint" && !has_exact_poses(problem);
+}
+
+/// Indices of the estimates that a second method must confirm.
+std::vector<std::size_t> to_confirm(const LocalizationProblem& problem,
+                                    const LocalizationResult& result) {
+  if (corrects_poses(problem, result.method)) return misfitting(problem, result);
+  const bool as_coherent = result.method == "joint" || takes_way_as_coherent(result.method);
+  if (!as_coherent || stated_pose_error(problem)) return {};
+  return doubtful(problem, result);
+}
+
 }  // namespace
 
 void refuse_unconfirmed(const LocalizationProblem& problem, int threads,
                         LocalizationResult& result) {
-  const bool as_coherent = takes_way_as_coherent(result.method) ||
-                           (result.method == "joint" && has_exact_poses(problem));
-  if (!as_coherent || stated_pose_error(problem)) return;
-  const std::vector<std::size_t> numbers = doubtful(problem, result);
+  const std::vector<std::size_t> numbers = to_confirm(problem, result);
   if (numbers.empty()) return;
   LocalizationProblem those = problem;
   those.samples.clear();
@@ -85,9 +120,12 @@ void refuse_unconfirmed(const LocalizationProblem& problem, int threads,
       judge(problem.limits, estimate);
       continue;
     }
-    estimate = not_located(std::move(estimate),
-                           "the position explains less than half of the phases' power, and "
-                           "separate sections of the path (method robust) do not confirm it");
+    estimate =
+        not_located(std::move(estimate),
+                    std::string(corrects_poses(problem, result.method)
+                                    ? "its residuals are over twice those of most tags"
+                                    : "the position explains less than half of the phases' power") +
+                        ", and separate sections of the path (method robust) do not confirm it");
   }
 }
 

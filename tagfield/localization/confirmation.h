@@ -12,7 +12,9 @@ namespace tagfield {
 /// poses of another drive. Such tags stay located only if separate sections of the path (the method
 /// `robust`) locate them too, within three times their combined expected error, and their expected
 /// error is then at least that of `robust`. Applies to methods that treat the whole path as
-/// coherent.
+/// coherent. Where `joint` corrects the poses, this applies to tags whose residuals are over twice
+/// the median of all located ones, if there are at least four: they are at another minimum, or have
+/// moved.
 void refuse_unconfirmed(const LocalizationProblem& problem, int threads,
                         LocalizationResult& result);
 

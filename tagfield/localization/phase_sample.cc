@@ -152,13 +152,15 @@ std::size_t put_in_order(std::vector<PhaseSample>& samples) {
   return before - samples.size();
 }
 
-/// Detects whether all phases are identical.
+/// Detects whether all phases are identical, and the greatest magnitude of one.
 class PhasesSeen {
  public:
   void add(double phase_rad) {
     if (count_++ == 0) first_ = phase_rad;
     differ_ = differ_ || phase_rad != first_;
+    if (std::isfinite(phase_rad)) greatest_rad_ = std::max(greatest_rad_, std::abs(phase_rad));
   }
+  [[nodiscard]] double greatest_rad() const { return greatest_rad_; }
   /// See has_phases().
   [[nodiscard]] bool any() const { return count_ < kEnough || differ_; }
 
@@ -166,6 +168,7 @@ class PhasesSeen {
   static constexpr std::size_t kEnough = 8;
   std::size_t count_ = 0;
   double first_ = 0.0;
+  double greatest_rad_ = 0.0;
   bool differ_ = false;
 };
 
@@ -175,7 +178,19 @@ struct FirstLook {
   /// Number of reads by tag and antenna.
   std::map<std::string, std::map<std::string, std::size_t>> counts;
   bool has_phases = true;
+  double greatest_phase_rad = 0.0;
 };
+
+/// Readers report one or two cycles; more are unwrapped phases, or another unit.
+void warn_of_many_cycles(double phase_rad, Diagnostics& diagnostics) {
+  constexpr double kUsual = 2.0 * kTwoPi + 0.1;
+  if (phase_rad <= kUsual) return;
+  diagnostics.warn(fmt::format(
+      "phases of up to {:.5g} rad: whole cycles are dropped, which is right if they are "
+      "unwrapped, but not if they are in degrees or steps (a dataset's profile states "
+      "the unit)",
+      phase_rad));
+}
 
 FirstLook first_look(const EachRead& each_read) {
   FirstLook look;
@@ -188,6 +203,7 @@ FirstLook first_look(const EachRead& each_read) {
   });
   look.ranges = ranges_of(std::move(stamps));
   look.has_phases = phases.any();
+  look.greatest_phase_rad = phases.greatest_rad();
   return look;
 }
 
@@ -252,6 +268,7 @@ JoinedReads join_reads_with_tracks(const EachRead& each_read,
   const FirstLook look = first_look(each_read);
   JoinedReads joined;
   joined.has_phases = look.has_phases;
+  warn_of_many_cycles(look.greatest_phase_rad, diagnostics);
   std::map<std::string, ReadCount> counts;
   StampsByAntenna strays;
   each_read([&](const TagRead& read) {

@@ -204,7 +204,7 @@ double log_chance(const std::vector<double>& reads, double sum, double places) {
 
 void refuse_without_phases(const LocalizationProblem& problem, LocalizationResult& result) {
   for_each_position(problem, result, [](const SamplesOfTag&, TagEstimate& estimate) {
-    refuse(estimate, "the reads have no phases, or all the same one: use a method by RSSI");
+    refuse(estimate, "the reads have no usable phases: use a method by RSSI");
   });
 }
 

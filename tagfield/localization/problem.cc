@@ -8,6 +8,7 @@
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/judgement.h"
+#include "tagfield/localization/phase_unit.h"
 #include "tagfield/localization/pi_ambiguity.h"
 #include "tagfield/localization/stops.h"
 
@@ -122,6 +123,18 @@ std::optional<double> known_height(const LocalizationProblem& problem, const std
   return problem.heights.of_all;
 }
 
+/// Whether the phases can be in radians. Warns if they can't.
+bool are_radians(const SamplesByTag& samples, Diagnostics& diagnostics) {
+  constexpr double kLeast = 0.4;
+  const double share = occupied_cycle(samples);
+  if (share >= kLeast) return true;
+  diagnostics.warn(fmt::format(
+      "all phases lie within {:.0f} % of a cycle, although the antennas moved by metres: they "
+      "can't be in radians and are not used (a dataset's profile states the unit)",
+      100.0 * share));
+  return false;
+}
+
 }  // namespace
 
 void warn_of_unknown_heights(const KnownBeforehand& known, const std::vector<std::string>& tags,
@@ -158,8 +171,8 @@ LocalizationProblem make_problem(const EachRead& each_read, const std::vector<An
   JoinedReads joined =
       join_reads_with_tracks(each_read, problem.tracks, known.max_pose_gap_s, diagnostics);
   problem.samples = std::move(joined.samples);
+  problem.has_phases = joined.has_phases && are_radians(problem.samples, diagnostics);
   problem.offset_known = take_out_offsets(known.offsets, problem.samples);
-  problem.has_phases = joined.has_phases;
   problem.pi_ambiguity =
       problem.has_phases && known.pi_ambiguity.value_or(has_pi_ambiguity(problem.samples));
   if (problem.pi_ambiguity) {

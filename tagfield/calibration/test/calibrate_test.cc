@@ -200,6 +200,23 @@ TEST(Calibrate, RandomPhasesCalibrateNothing) {
   }
 }
 
+// Positions of another set of tags leave residuals that are large but not independent.
+TEST(Calibrate, TagsThatAreElsewhereCalibrateNothing) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    Drive drive;
+    drive.duration_s = 20.0;
+    Recorded recorded = record(drive, known_tags(), seed);
+    Rng rng(seed);
+    for (auto& [tag, p_WT] : recorded.tags) {
+      p_WT += Eigen::Vector3d(normal(rng, 1.0), normal(rng, 1.0), 0.0);
+    }
+    Diagnostics diagnostics;
+    const Calibration calibration =
+        calibrate(recorded.reads, recorded.poses, recorded.tags, {}, 1, diagnostics);
+    EXPECT_TRUE(calibration.antennas.empty()) << "seed " << seed;
+  }
+}
+
 TEST(Calibrate, TooFewReadsAreAWarning) {
   Recorded recorded = record({}, known_tags(), 5);
   recorded.reads.resize(10);

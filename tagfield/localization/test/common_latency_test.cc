@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tagfield/localization/holograms/robust.h"
+#include "tagfield/localization/joint/joint.h"
 #include "tagfield/localization/test/problem_of.h"
 #include "tagfield/localization/test/reflections.h"
 
@@ -77,6 +78,35 @@ TEST(CommonLatency, SaysHowLateTheReadsAre) {
   ASSERT_NE(at, std::string::npos) << warning;
   EXPECT_NEAR(std::stod(warning.substr(at + 8)), 0.6, 0.06) << warning;
   EXPECT_NE(warning.find(" s late"), std::string::npos) << warning;
+}
+
+// On an L each leg's tags fix their own part of the path, which joint moves with them.
+TEST(CommonLatency, JointDoesNotTakeItForAPoseError) {
+  int before = 0;
+  int after = 0;
+  int in_time = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    for (const double late_s : {0.0, 0.3}) {
+      made::Rng rng(seed);
+      const made::Path path = made::l_turn(6.0, 6.0, 0.03);  // At 0.45 m/s.
+      made::Hall hall = made::hall(path, path, 10, {}, rng);
+      hall.problem.pose_error.reset();
+      made::make_late(hall, late_s);
+      Diagnostics diagnostics;
+      LocalizationResult result = joint_method().locate(hall.problem, 2, diagnostics);
+      const int found = claims(result);
+      if (late_s > 0.0) before += false_claims(result, hall);
+      refuse_common_latency(hall.problem, 2, result, diagnostics);
+      if (late_s > 0.0) after += false_claims(result, hall);
+      if (late_s == 0.0) {
+        EXPECT_EQ(claims(result), found) << seed;
+        in_time += found;
+      }
+    }
+  }
+  EXPECT_GE(before, 10);
+  EXPECT_EQ(after, 0);
+  EXPECT_GE(in_time, 30);
 }
 
 TEST(CommonLatency, ReadsInTimeKeepTheirPlaces) {

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <string>
 
+#include "tagfield/localization/joint/joint.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/test/problem_of.h"
 #include "tagfield/localization/test/reflections.h"
@@ -60,6 +63,63 @@ TEST(Confirmation, RightPlacesAmidReflectionsStay) {
     }
   }
   EXPECT_GT(right, 0);
+}
+
+struct JointClaims {
+  int located = 0;
+  int wrong = 0;  ///< Over five expected errors off.
+};
+
+/// Of tags at rest, and of those that were at two places, either of which would be right.
+JointClaims claims_of(const LocalizationResult& result, const made::Hall& hall,
+                      const std::map<std::string, Eigen::Vector3d>& later) {
+  JointClaims claims;
+  for (const TagEstimate& estimate : result.estimates) {
+    if (estimate.verdict != Verdict::kLocated) continue;
+    const Candidate& claim = estimate.candidates.front();
+    double error = (claim.p_WT - hall.truth.at(estimate.tag)).norm();
+    const auto moved = later.find(estimate.tag);
+    if (moved != later.end()) error = std::min(error, (claim.p_WT - moved->second).norm());
+    ++claims.located;
+    if (error > 5.0 * claim.expected_error_m) ++claims.wrong;
+  }
+  return claims;
+}
+
+TEST(Confirmation, TagsThatDoNotFitThePosesThatJointCorrectsAreRefused) {
+  JointClaims before;
+  JointClaims after;
+  JointClaims at_rest;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    Rng rng(seed);
+    const made::Path path = made::loop(12.0, 0.02);
+    made::Hall hall = made::hall(path, path, 10, {}, rng);
+    hall.problem.pose_error.reset();
+    Diagnostics diagnostics;
+    LocalizationResult result = joint_method().locate(hall.problem, 2, diagnostics);
+    const int found = claims_of(result, hall, {}).located;
+    refuse_unconfirmed(hall.problem, 2, result);
+    EXPECT_EQ(claims_of(result, hall, {}).located, found) << seed;
+    at_rest.located += found;
+    // Two tags are moved in the middle of the run.
+    std::map<std::string, Eigen::Vector3d> later;
+    for (const std::string tag : {"t0", "t1"}) {
+      later[tag] = hall.truth[tag] + Eigen::Vector3d(0.8, tag == "t0" ? 0.6 : -0.6, 0.0);
+      std::vector<PhaseSample>& series = hall.problem.samples[tag]["a"];
+      const std::vector<PhaseSample> moved = made::read_along(path, path, later[tag], {}, rng);
+      std::copy(moved.begin() + static_cast<std::ptrdiff_t>(moved.size() / 2), moved.end(),
+                series.begin() + static_cast<std::ptrdiff_t>(series.size() / 2));
+    }
+    result = joint_method().locate(hall.problem, 2, diagnostics);
+    before.wrong += claims_of(result, hall, later).wrong;
+    refuse_unconfirmed(hall.problem, 2, result);
+    after.wrong += claims_of(result, hall, later).wrong;
+    after.located += claims_of(result, hall, later).located;
+  }
+  EXPECT_GE(at_rest.located, 60);
+  EXPECT_GE(before.wrong, 3);
+  EXPECT_LE(3 * after.wrong, before.wrong);
+  EXPECT_GE(after.located, 50);
 }
 
 }  // namespace
