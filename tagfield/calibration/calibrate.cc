@@ -272,10 +272,10 @@ double scatter_of(const std::vector<TagOffset>& by_tag) {
   return freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0;
 }
 
-/// Noise at which the phasors' mean is half as long as without [rad]: wrong positions of tags leave
-/// residuals of that size that depend on each other, so that evidence against random phases, which
-/// are independent, proves nothing.
-constexpr double kMaxCredibleNoise = 1.18;
+/// Readers' noise is well below this, reflections included [rad]. Positions of other tags leave 0.8
+/// to 1.9 rad, and as these residuals depend on each other, evidence against random phases, which
+/// are independent, does not count.
+constexpr double kMaxCredibleNoise = 0.75;
 
 /// nullopt if random phases, or those of tags elsewhere, would fit equally well.
 std::optional<AntennaCalibration> calibration_of(const AntennaData& data,
