@@ -387,8 +387,9 @@ Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<Anten
       continue;
     }
     diagnostics.warn(
-        fmt::format("antenna '{}' is not calibrated: random phases would fit its {} reads equally "
-                    "well; do tags, poses and stamps belong to these reads?",
+        fmt::format("antenna '{}' is not calibrated: its {} reads fit the positions no better than "
+                    "random phases or those of other tags; do tags, poses and stamps belong to "
+                    "these reads?",
                     usable[i]->name, usable[i]->samples.size()));
   }
   return calibration;

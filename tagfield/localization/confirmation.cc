@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "tagfield/base/median.h"
+#include "tagfield/localization/at_rest.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/holograms/robust.h"
 #include "tagfield/localization/judgement.h"
@@ -50,13 +51,10 @@ void take_doubt(const Candidate& by, Candidate& place) {
 /// Indices of the estimates in question.
 std::vector<std::size_t> doubtful(const LocalizationProblem& problem,
                                   const LocalizationResult& result) {
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < result.estimates.size(); ++i) {
-    const TagEstimate& estimate = result.estimates[i];
-    if (estimate.verdict != Verdict::kLocated || problem.samples.count(estimate.tag) == 0) continue;
-    if (problem.reference_tags.count(estimate.tag) > 0) continue;
-    if (explained_power(problem, estimate) < kMinPower) numbers.push_back(i);
-  }
+  std::vector<std::size_t> numbers = claimed_tags(problem, result);
+  std::erase_if(numbers, [&](std::size_t i) {
+    return explained_power(problem, result.estimates[i]) >= kMinPower;
+  });
   return numbers;
 }
 
@@ -66,21 +64,13 @@ std::vector<std::size_t> misfitting(const LocalizationProblem& problem,
                                     const LocalizationResult& result) {
   constexpr std::size_t kFewest = 4;
   constexpr double kTimesTheMedian = 2.0;
+  const auto misfit_m = [&](std::size_t i) { return result.estimates[i].candidates.front().rms_m; };
+  std::vector<std::size_t> numbers = claimed_tags(problem, result);
+  if (numbers.size() < kFewest) return {};
   std::vector<double> misfits_m;
-  for (const TagEstimate& estimate : result.estimates) {
-    if (estimate.verdict != Verdict::kLocated) continue;
-    if (problem.reference_tags.count(estimate.tag) > 0) continue;
-    misfits_m.push_back(estimate.candidates.front().rms_m);
-  }
-  std::vector<std::size_t> numbers;
-  if (misfits_m.size() < kFewest) return numbers;
+  for (const std::size_t i : numbers) misfits_m.push_back(misfit_m(i));
   const double most = kTimesTheMedian * median(misfits_m);
-  for (std::size_t i = 0; i < result.estimates.size(); ++i) {
-    const TagEstimate& estimate = result.estimates[i];
-    if (estimate.verdict != Verdict::kLocated || problem.samples.count(estimate.tag) == 0) continue;
-    if (problem.reference_tags.count(estimate.tag) > 0) continue;
-    if (estimate.candidates.front().rms_m > most) numbers.push_back(i);
-  }
+  std::erase_if(numbers, [&](std::size_t i) { return misfit_m(i) <= most; });
   return numbers;
 }
 

@@ -376,7 +376,6 @@ ScenarioWithWorld with_world(ReadScenario read, const std::string& path, const S
   return loaded;
 }
 
-/// Adds the scenario's stationary tags, each at its own pose; moving ones are not planned for.
 /// Warns of tags of the plan in a zone that no mount is for and the scenario does not have, and of
 /// a limit on cross reads that nothing can break.
 void warn_of_zones(const Scenario& scenario, const PlanSpec& plan, Diagnostics& diagnostics) {
@@ -401,6 +400,7 @@ void warn_of_zones(const Scenario& scenario, const PlanSpec& plan, Diagnostics& 
   }
 }
 
+/// Adds the scenario's stationary tags, each at its own pose; moving ones are not planned for.
 void add_own_tags(const Scenario& scenario, Diagnostics& diagnostics, PlanSpec& plan) {
   std::size_t moving = 0;
   std::size_t passing = 0;
