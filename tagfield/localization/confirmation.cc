@@ -68,6 +68,7 @@ std::vector<std::size_t> misfitting(const LocalizationProblem& problem,
   std::vector<std::size_t> numbers = claimed_tags(problem, result);
   if (numbers.size() < kFewest) return {};
   std::vector<double> misfits_m;
+  misfits_m.reserve(numbers.size());
   for (const std::size_t i : numbers) misfits_m.push_back(misfit_m(i));
   const double most = kTimesTheMedian * median(misfits_m);
   std::erase_if(numbers, [&](std::size_t i) { return misfit_m(i) <= most; });
