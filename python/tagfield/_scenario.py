@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 from dataclasses import dataclass, replace
@@ -54,10 +55,12 @@ class World:
     """
 
     def __init__(self) -> None:
-        self._core = _core.World()
-        self._solids: list[tuple] = []  # Calls that make self._core anew.
+        self._core = _Solids()
         self._is_kept = False
         self.materials: dict[str, str] = {}
+
+    def __copy__(self) -> World:
+        return copy.deepcopy(self)
 
     def box(self, name: str, size_m: Sequence[float], position_m: Sequence[float],
             rpy_rad: Sequence[float] = (0, 0, 0), material: str | None = None) -> World:
@@ -110,23 +113,38 @@ class World:
         if material is not None and not isinstance(material, str):
             raise _core.Error(f"world: '{name}': material is {shown(material)}, expected its name")
         if self._is_kept:
-            self._core, self._is_kept = self._made_anew(), False
-        getattr(self._core, function)(name, *arguments)
-        self._solids.append((function, name, *arguments))
+            self._core, self._is_kept = _solids(self._core.calls), False
+        self._core.add(function, name, *arguments)
         if material is not None:
             self.materials[name] = material
         return self
 
-    def _made_anew(self) -> _core.World:
-        made = _core.World()
-        for function, *arguments in self._solids:
-            getattr(made, function)(*arguments)
-        return made
-
-    def _kept(self) -> _core.World:
+    def _kept(self) -> _Solids:
         """The solids as they are now, for a scenario to keep: solids added later go into a copy."""
         self._is_kept = True
         return self._core
+
+
+class _Solids(_core.World):
+    """The core's world with the calls that make it, by which it is copied and pickled."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.calls: list[tuple[Any, ...]] = []
+
+    def add(self, function: str, *arguments: Any) -> None:
+        getattr(self, function)(*arguments)
+        self.calls.append((function, *arguments))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _solids, (self.calls,)
+
+
+def _solids(calls: Iterable[tuple[Any, ...]]) -> _Solids:
+    made = _Solids()
+    for call in calls:
+        made.add(*call)
+    return made
 
 
 class Outlet:
@@ -177,7 +195,7 @@ class _Source:
     path: str = ""
     text: str = ""
     name: str = ""
-    world: _core.World | None = None
+    world: _Solids | None = None
     overrides: tuple[tuple[str, str], ...] = ()
     skip_missing: bool = False
     allow_outside: bool = False
@@ -211,6 +229,9 @@ class Scenario:
             tags=[{"id": "tag1", "position": [0.5, 0, 1]}])
 
     Raises Error for an invalid key or value, with the key's path and the line in :attr:`text`.
+
+    Scenarios can be pickled, so that other processes run them. The file of a loaded one is read again there, under
+    the same path, when it is first used.
     """
 
     def __init__(self, name: str, *, world: World | str | Mapping[str, Any] | None = None,
@@ -237,9 +258,24 @@ class Scenario:
         return scenario
 
     def _open(self, what: str, source: _Source) -> None:
-        self._loaded = source.load(what)
+        self._opened: _core.Loaded | None = source.load(what)
         self._source = source.settled()
-        self._warnings = tell(self._loaded.warnings)
+        self._warnings = tell(self._opened.warnings)
+
+    @property
+    def _loaded(self) -> _core.Loaded:
+        if self._opened is None:  # It was pickled.
+            self._opened = self._source.load("scenario")
+        return self._opened
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_opened": None}
+
+    def __copy__(self) -> Scenario:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Scenario:
+        return self
 
     def __repr__(self) -> str:
         return (f"<tagfield.Scenario {self.name}: {len(self.antennas)} antennas, {len(self.tags)} tags, "

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenarios and worlds created in Python; links, explanations, coverage maps; stepped simulation."""
 
+import copy
 import math
+import multiprocessing
 import os
+import pickle
 import signal
 import threading
 import time
@@ -217,6 +220,57 @@ def test_arguments_are_checked(ask, said):
         ask(portal())
     assert str(raised.value).startswith(said)
     assert "\n" not in str(raised.value)
+
+
+def same_run(one, other):
+    return one.reads.tobytes() == other.reads.tobytes() and one.reads.categories == other.reads.categories
+
+
+def test_scenarios_are_pickled(tmp_path):
+    world = tagfield.World().floor()
+    world.box("screen", size_m=(0.5, 3, 0.5), position_m=(1, 0, 2.5), material="wood")
+    world.mesh("sheet", [[1, -2, 0], [1, 2, 0], [1, 2, 3]], [[0, 1, 2]], position_m=(0, 5, 0), material="metal")
+    made = portal(world=world, model="multipath").with_(seed=3)
+    path = tmp_path / "row.yaml"
+    path.write_text("duration_s: 1\nseed: 4\nantennas: [{name: a, pose: [0, 0, 1]}]\n"
+                    "tags: [{id: t, position: [1, 0, 1]}]\n", encoding="utf-8")
+    loaded = tagfield.load(path).with_({"antennas.a.range_m": 3})
+    for scenario in (made, loaded):
+        again = pickle.loads(pickle.dumps(scenario))
+        assert again.text == scenario.text and again.warnings == scenario.warnings
+        assert same_run(again.run(), scenario.run())
+        assert again.with_(seed=9).run().seed == 9
+        assert copy.copy(scenario) is scenario and copy.deepcopy(scenario) is scenario
+    copied = copy.deepcopy(world)
+    copied.sphere("ball", 1.0, (9, 9, 1), material="wood")
+    copy.copy(world).sphere("ball", 1.0, (9, 9, 1), material="wood")
+    assert world.solids == ["floor", "screen", "sheet"] and world.materials.get("ball") is None
+    assert pickle.loads(pickle.dumps(world)).solids == world.solids
+    path.unlink()
+    with pytest.raises(tagfield.Error, match="row.yaml: "):
+        pickle.loads(pickle.dumps(loaded)).run()
+
+
+def test_what_was_told_is_not_told_again():
+    with pytest.warns(tagfield.TagfieldWarning, match="has no effect"):
+        odd = portal().with_({"pose.sigma_m": 0.1})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        again = pickle.loads(pickle.dumps(odd))
+        assert again.run().seed == 1 and again.warnings == odd.warnings
+
+
+def test_other_processes_run_a_scenario():
+    scenario = portal()
+    with multiprocessing.get_context("spawn").Pool(2) as pool:
+        runs = pool.map(scenario.run, [1, 2])
+    for run in runs:
+        here = scenario.run(seed=run.seed)
+        assert same_run(run, here)
+        assert run.estimates.tobytes() == here.estimates.tobytes() and str(run) == str(here)
+        assert run.truth.positions_m().keys() == here.truth.positions_m().keys()
+        assert run.localize("trilateration").estimates.names("tag").tolist() == ["tag1"]
+    assert [run.seed for run in runs] == [1, 2]
 
 
 def test_numpy_s_integers_are_integers():
