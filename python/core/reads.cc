@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <set>
 
 #include "apps/tagfield/foreign_tables.h"
@@ -24,6 +26,22 @@ namespace {
 
 using PlacesById = std::map<std::string, Eigen::Vector3d>;
 
+/// What an argument of this type is called in errors.
+template <class T>
+constexpr const char* kExpected = "a mapping from tag to position (3,) [m, world]";
+template <>
+constexpr const char* kExpected<double> = "a number";
+template <>
+constexpr const char* kExpected<bool> = "True or False";
+template <>
+constexpr const char* kExpected<std::string> = "text";
+template <>
+constexpr const char* kExpected<std::vector<double>> = "a list of numbers";
+template <>
+constexpr const char* kExpected<std::pair<double, double>> = "two numbers";
+template <>
+constexpr const char* kExpected<std::map<std::string, double>> = "a mapping from name to number";
+
 /// What Python knows beforehand, as keywords; what it does not is None.
 class Asked {
  public:
@@ -36,20 +54,34 @@ class Asked {
     try {
       return keywords_[key].cast<T>();
     } catch (const py::cast_error&) {
-      throw Error(command_ + ": " + key + " is " + std::string(py::repr(keywords_[key])) +
-                  ", which is not a valid value");
+      refuse(key, kExpected<T>);
     }
+  }
+  /// Finite numbers by name.
+  [[nodiscard]] std::optional<std::map<std::string, double>> numbers(const char* key) const {
+    auto values = get<std::map<std::string, double>>(key);
+    if (!values) return values;
+    for (const auto& [name, value] : *values) {
+      if (std::isfinite(value)) continue;
+      throw Error(
+          fmt::format("{}: {}: '{}' is {}, expected a finite number", command_, key, name, value));
+    }
+    return values;
   }
   [[nodiscard]] std::optional<double> number(const char* key, double least) const {
     const auto value = get<double>(key);
     if (value && !(*value >= least && std::abs(*value) <= 1e15)) {
-      throw Error(command_ + ": " + key + " must be a number" +
-                  (least == 0.0 ? ", 0 or more" : ""));
+      refuse(key, least == 0.0 ? "a finite number, 0 or more" : "a finite number");
     }
     return value;
   }
 
  private:
+  [[noreturn]] void refuse(const char* key, const char* expected) const {
+    throw Error(command_ + ": " + key + " is " + std::string(py::repr(keywords_[key])) +
+                ", expected " + expected);
+  }
+
   py::dict keywords_;
   std::string command_;
 };
@@ -58,7 +90,7 @@ constexpr double kAny = -1e15;
 
 void take_heights(const Asked& asked, KnownBeforehand& known) {
   const auto of_all = asked.number("tag_height_m", kAny);
-  const auto of_tag = asked.get<std::map<std::string, double>>("tag_heights_m");
+  const auto of_tag = asked.numbers("tag_heights_m");
   const auto side = asked.get<std::string>("height");
   if (!of_all && !of_tag && !side) return;
   if (of_all && side) throw Error("localize: tag_height_m and height exclude each other");
@@ -74,7 +106,7 @@ void take_heights(const Asked& asked, KnownBeforehand& known) {
 
 /// An offset for each antenna, or one for all of them.
 void take_offsets(const Asked& asked, const std::vector<TagRead>& reads, KnownBeforehand& known) {
-  const auto offsets = asked.get<std::map<std::string, double>>("offsets_rad");
+  const auto offsets = asked.numbers("offsets_rad");
   const auto of_all = asked.number("offset_rad", kAny);
   std::set<std::string> antennas;
   for (const TagRead& read : reads) antennas.insert(read.antenna);

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, Sequence
 
 from . import _core
-from ._checks import called, method_of, number, shown, whole
+from ._checks import called, flag, method_of, number, path_of, progress_of, shown, text, whole
 from ._methods import Method
 from ._scenario import Scenario, _flat, _value_text, load, threads_of
 from ._tables import frame_of
@@ -79,6 +79,12 @@ def bench(what: str | os.PathLike | Scenario, methods: str | Method | Sequence[A
     first_seed = None if first_seed is None else whole("bench: first_seed", first_seed, 0, 2**64 - 1)
     if phase_noise_rad is not None:
         phase_noise_rad = number("bench: phase_noise_rad", phase_noise_rad, 0.0)
+    name = None if name is None else text("bench: name", name)
+    skip_missing = flag("bench: skip_missing", skip_missing)
+    allow_outside = flag("bench: allow_outside", allow_outside)
+    progress = progress_of("bench", progress)
+    if not isinstance(what, Scenario):
+        what = path_of("bench: what", what)
     if not isinstance(what, Scenario) and _is_suite(what):
         if conditions is not None or any(isinstance(method, str) for _, method, _ in entries):
             raise _core.Error("bench: a suite has its own conditions and methods: only your own methods can "
@@ -87,7 +93,7 @@ def bench(what: str | os.PathLike | Scenario, methods: str | Method | Sequence[A
             raise _core.Error("bench: a suite says phase_noise_rad and its name itself")
         own = [_renamed(method, name) for (_, method, _), name in
                zip(entries, _core_names([label for label, _, _ in entries]), strict=True)]
-        return Bench(called("bench", _core.bench_suite, os.fspath(what), own, seeds, first_seed, skip_missing,
+        return Bench(called("bench", _core.bench_suite, what, own, seeds, first_seed, skip_missing,
                             allow_outside, threads_of(threads), progress))
     if isinstance(what, Scenario) and (skip_missing or allow_outside):
         raise _core.Error("bench: skip_missing and allow_outside are of files: give them to tagfield.load()")
@@ -107,7 +113,7 @@ def bench(what: str | os.PathLike | Scenario, methods: str | Method | Sequence[A
                         threads_of(threads), progress))
 
 
-def _is_suite(path: str | os.PathLike) -> bool:
+def _is_suite(path: str) -> bool:
     """Whether the file is a suite: only suites have a key `conditions`."""
     try:
         lines = Path(path).read_text(encoding="utf-8").splitlines()

@@ -6,15 +6,16 @@ from __future__ import annotations
 import difflib
 import math
 import operator
+import os
 import re
-from typing import Any, Callable, Iterable, Sequence
+from typing import Any, Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
 from . import _core
 
-__all__ = ["called", "method_of", "names", "number", "seed_of", "shown", "spoken", "suggestion", "time", "vector",
-           "whole"]
+__all__ = ["called", "flag", "function_of", "mapping", "method_of", "names", "number", "path_of", "progress_of",
+           "seed_of", "shown", "spoken", "suggestion", "text", "time", "vector", "whole"]
 
 _LATEST_S = 4.6e9  # Half of what 64 bits of nanoseconds can state.
 
@@ -84,6 +85,49 @@ def vector(what: str, value: Any, size: int = 3, most: float = math.inf) -> np.n
         return checked
     limit = "" if most == math.inf else f", up to ±{most:g}"
     raise _core.Error(f"{what} is {shown(value)}, expected {size} finite numbers{limit}")
+
+
+def flag(what: str, value: Any) -> bool:
+    """The value as a bool; words and other numbers than 0 and 1 are not."""
+    if isinstance(value, (bool, np.bool_)) or (isinstance(value, (int, np.integer)) and value in (0, 1)):
+        return bool(value)
+    raise _core.Error(f"{what} is {shown(value)}, expected True or False")
+
+
+def text(what: str, value: Any, expected: str = "text") -> str:
+    """The value, which is a str."""
+    if isinstance(value, str):
+        return value
+    raise _core.Error(f"{what} is {shown(value)}, expected {expected}")
+
+
+def path_of(what: str, value: Any) -> str:
+    """The value as the path of a file."""
+    try:
+        return os.fsdecode(value)
+    except TypeError:
+        raise _core.Error(f"{what} is {shown(value)}, expected a path") from None
+
+
+def mapping(what: str, value: Any, content: str) -> Mapping[Any, Any]:
+    """The value, a mapping; None is an empty one. `content`: "setting to value"."""
+    if value is None:
+        return {}
+    if isinstance(value, Mapping):
+        return value
+    raise _core.Error(f"{what} is {shown(value)}, expected a mapping from {content}")
+
+
+def function_of(what: str, value: Any, argument: str) -> Callable[..., Any]:
+    """The value, which can be called."""
+    if callable(value):
+        return value
+    raise _core.Error(f"{what} is {shown(value)}, expected a function {argument}")
+
+
+def progress_of(what: str, value: Any) -> Callable[[float], Any] | None:
+    """The value as a receiver of the completed share."""
+    return None if value is None else function_of(f"{what}: progress", value, "of the completed share, 0 to 1")
 
 
 def method_of(what: str, value: Any) -> _core.Method:

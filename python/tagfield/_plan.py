@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Mapping
 
 from . import _core
-from ._checks import called, number, seed_of, whole
+from ._checks import called, flag, number, path_of, progress_of, seed_of, whole
 from ._scenario import Scenario, _changes, _Source, threads_of
 from ._tables import frame_of
 from ._warnings import tell
@@ -100,6 +100,7 @@ def plan(path: str | os.PathLike, *changes: str | Mapping[str, Any], seed: int |
     if not 0.0 <= number("plan: exact_s", exact_s) <= 86_400.0:
         raise _core.Error(f"plan: exact_s is {exact_s}, expected 0 to 86400")
     seed = None if seed is None else seed_of("plan", seed)
-    return Plan(called("plan", _core.plan, os.fspath(path), _changes("plan", changes, {}), skip_missing,
-                       allow_outside, seed, samples, check, exact_s, os.fspath(links), threads_of(threads),
-                       progress))
+    return Plan(called("plan", _core.plan, path_of("plan: path", path), _changes("plan", changes, {}),
+                       flag("plan: skip_missing", skip_missing), flag("plan: allow_outside", allow_outside), seed,
+                       samples, check, exact_s, path_of("plan: links", links), threads_of(threads),
+                       progress_of("plan", progress)))

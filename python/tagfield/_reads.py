@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Mapping
 import numpy as np
 
 from . import _core
-from ._checks import called, method_of, number, shown, suggestion, vector
+from ._checks import called, mapping, method_of, number, path_of, shown, suggestion, vector
 from ._runs import Localization, Tracks
 from ._scenario import share, threads_of
 from ._tables import Table
@@ -29,7 +29,7 @@ def methods() -> dict[str, str]:
 
 
 def read(reads: str | os.PathLike, poses: str | os.PathLike | None = None,
-         format: str = "") -> tuple[Table, Table]:
+         format: str | os.PathLike = "") -> tuple[Table, Table]:
     """Loads reads and antenna poses from files, as tables like Run.reads and Run.poses.
 
     reads: a CSV table, the folder of a run, an archive of tables, or a table in another `format`.
@@ -39,10 +39,11 @@ def read(reads: str | os.PathLike, poses: str | os.PathLike | None = None,
 
     Raises Error "FILE:LINE: …".
     """
-    form = format
+    form = path_of("read: format", format)
     if form and not Path(form).suffix and os.sep not in form and not Path(form).exists():
         form = share(f"profiles/datasets/{form}.yaml")
-    tables = called("read", _core.read, os.fspath(reads), "" if poses is None else os.fspath(poses), form)
+    tables = called("read", _core.read, path_of("read: reads", reads),
+                    "" if poses is None else path_of("read: poses", poses), form)
     return tables["reads"], tables["poses"]
 
 
@@ -131,7 +132,7 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
     if name is None:
         name = "auto" if loaded is None else loaded.method
     pairs = [(key, value if isinstance(value, str) else _plain_text(value))
-             for key, value in (settings or {}).items()]
+             for key, value in mapping("localize: settings", settings, "setting to value").items()]
     of_reads = _reads_table(reads)
     listed = _listed("localize", known)
     located = called("localize", _core.localize, _reads_argument(of_reads), _poses_argument(poses),

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Callable, Mapping
 import numpy as np
 
 from . import _core
-from ._checks import number, shown, vector, whole
+from ._checks import flag, number, shown, text, vector, whole
 from ._tables import Table
 from ._warnings import tell
 
@@ -206,7 +206,7 @@ class Simulation:
 
     def drive(self, forward_m_s: float, turn_rad_s: float) -> None:
         """Commands the robot's forward velocity and turn rate from now on; its limits apply."""
-        self._core.drive(forward_m_s, turn_rad_s)
+        self._core.drive(number("drive: forward_m_s", forward_m_s), number("drive: turn_rad_s", turn_rad_s))
 
     @property
     def now_s(self) -> float:
@@ -231,7 +231,8 @@ class Simulation:
 
     def robot_pose(self, name: str = "", *, believed: bool = False) -> np.ndarray:
         """True or believed pose of a robot: (3,) x, y [m, world], yaw [rad]."""
-        return self._core.robot_pose(name or self.robot, believed)
+        return self._core.robot_pose(text("robot_pose: name", name, "a name") or self.robot,
+                                     flag("robot_pose: believed", believed))
 
     def add_tag(self, tag: str, position_m: Any, rpy_rad: Any = (0, 0, 0)) -> None:
         """Adds a tag at position_m (3,) [m, world], of the same model as the scenario's first tag.
@@ -244,15 +245,15 @@ class Simulation:
 
     def move_tag(self, tag: str, position_m: Any, rpy_rad: Any = (0, 0, 0)) -> None:
         """Moves a tag to position_m (3,) [m, world], where it stays at rest."""
-        self._core.move_tag(tag, *_place("move_tag", position_m, rpy_rad))
+        self._core.move_tag(text("move_tag: tag", tag, "an ID"), *_place("move_tag", position_m, rpy_rad))
 
     def remove_tag(self, tag: str) -> None:
         """Removes a tag."""
-        self._core.remove_tag(tag)
+        self._core.remove_tag(text("remove_tag: tag", tag, "an ID"))
 
     def has_tag(self, tag: str) -> bool:
         """Whether the tag is present."""
-        return self._core.has_tag(tag)
+        return self._core.has_tag(text("has_tag: tag", tag, "an ID"))
 
 
 def _place(what: str, position_m: Any, rpy_rad: Any) -> tuple[np.ndarray, np.ndarray]:

@@ -13,7 +13,8 @@ from typing import Any, Callable, Iterable, Mapping, Sequence
 import numpy as np
 
 from . import _core
-from ._checks import called, method_of, names, number, seed_of, shown, time, vector, whole
+from ._checks import (called, flag, function_of, mapping, method_of, names, number, path_of, progress_of, seed_of,
+                      shown, text, time, vector, whole)
 from ._runs import Coverage, Explanation, Run, Simulation, Tracks
 from ._warnings import tell
 
@@ -350,8 +351,8 @@ class Scenario:
         """
         scenario, own = self._by("run", method)
         seed = scenario._loaded.seed if seed is None else seed_of("run", seed)
-        done = _core.run_seeds(scenario._loaded, [seed], threads_of(threads), locate, own, list(outlets),
-                               progress)
+        done = _core.run_seeds(scenario._loaded, [seed], threads_of(threads), flag("run: locate", locate), own,
+                               _outlets("run", outlets), progress_of("run", progress))
         return Run(scenario, done[0])
 
     def run_many(self, seeds: int | Iterable[int], *, method: _core.Method | str | None = None,
@@ -365,8 +366,11 @@ class Scenario:
         if isinstance(seeds, Iterable):
             wanted = [seed_of("run_many", seed) for seed in seeds]
         else:
-            wanted = list(range(1, whole("run_many: seeds", seeds) + 1))
-        done = _core.run_seeds(scenario._loaded, wanted, threads_of(threads), locate, own, [], progress)
+            wanted = list(range(1, whole("run_many: seeds", seeds, 1) + 1))
+        if not wanted:
+            raise _core.Error("run_many: seeds is empty, expected at least one seed")
+        done = _core.run_seeds(scenario._loaded, wanted, threads_of(threads), flag("run_many: locate", locate), own,
+                               [], progress_of("run_many", progress))
         return [Run(scenario, one) for one in done]
 
     def simulation(self, seed: int | None = None, *, robot: str = "",
@@ -380,10 +384,13 @@ class Scenario:
         policy: function of the time [s] that returns forward velocity [m/s] and turn rate [rad/s].
         outlets: receivers of reads during the simulation; see :class:`Outlet`.
         """
+        robot = text("simulation: robot", robot, "a name")
+        if policy is not None:
+            policy = function_of("simulation: policy", policy, "of the time [s]")
         if policy is not None and not robot:
             raise _core.Error("simulation: a policy needs robot=NAME, whom it drives")
         seed = self._loaded.seed if seed is None else seed_of("simulation", seed)
-        return Simulation(self, seed, robot, policy, list(outlets))
+        return Simulation(self, seed, robot, policy, _outlets("simulation", outlets))
 
     def explain(self, *, antenna: str = "", tag: str = "", time_s: float = 0.0,
                 seed: int | None = None) -> Explanation:
@@ -392,9 +399,9 @@ class Scenario:
         antenna: by default the one with the best link.
         """
         seed = self._loaded.seed if seed is None else seed_of("explain", seed)
-        text, spoken = called("explain", _core.explain, self._loaded, antenna, tag,
-                              time("explain: time_s", time_s), seed)
-        return Explanation(json.loads(text), spoken)
+        parts, spoken = called("explain", _core.explain, self._loaded, text("explain: antenna", antenna, "a name"),
+                               text("explain: tag", tag, "an ID"), time("explain: time_s", time_s), seed)
+        return Explanation(json.loads(parts), spoken)
 
     def coverage(self, *, antennas: str | Iterable[str] = (), heights_m: float | Iterable[float] = (),
                  step_m: float | None = None, region_m: Sequence[float] | None = None,
@@ -422,12 +429,12 @@ class Scenario:
             "region": "" if region_m is None else _listed(vector("coverage: region_m", region_m, 4)),
             "orientation": orientation if isinstance(orientation, str)
             else _listed(vector("coverage: orientation", orientation)),
-            "tag_profile": os.fspath(tag_profile),
+            "tag_profile": path_of("coverage: tag_profile", tag_profile),
             "tag_settings": [f"{key}={_value_text(value, f'coverage: tag: {key}')}"
-                             for key, value in (tag or {}).items()],
+                             for key, value in mapping("coverage: tag", tag, "setting to value").items()],
             "seed": None if seed is None else seed_of("coverage", seed)}
         return Coverage(self, called("coverage", _core.coverage, self._loaded, asked, threads_of(threads),
-                                     progress))
+                                     progress_of("coverage", progress)))
 
     def link(self, *, antenna: str = "", tag: str = "", time_s: float = 0.0,
              tag_rpy_rad: Sequence[float] = (0, 0, 0)) -> _core.Link:
@@ -436,7 +443,8 @@ class Scenario:
         The tag has the model of `tag` (by default the first) and the orientation `tag_rpy_rad` (roll,
         pitch, yaw). Moving bodies, other readers and neighbouring tags are not included.
         """
-        return called("link", _core.link, self._loaded, antenna, tag, time("link: time_s", time_s),
+        return called("link", _core.link, self._loaded, text("link: antenna", antenna, "a name"),
+                      text("link: tag", tag, "an ID"), time("link: time_s", time_s),
                       vector("link: tag_rpy_rad", tag_rpy_rad))
 
     def track(self, seed: int | None = None, *, threads: int | None = None, **keywords: Any) -> Tracks:
@@ -459,10 +467,18 @@ def load(path: str | os.PathLike, *, skip_missing: bool = False, allow_outside: 
     With ``skip_missing``, models and meshes of the world that are missing or broken are left out with a
     warning. With ``allow_outside``, the world may refer to files outside its folder and the model paths.
     """
-    if not os.fspath(path):
+    of_file = path_of("load: path", path)
+    if not of_file:
         raise _core.Error("load: path is empty, expected a scenario file")
-    return Scenario._from("load", _Source(path=os.fsdecode(path), skip_missing=skip_missing,
-                                          allow_outside=allow_outside))
+    return Scenario._from("load", _Source(path=of_file, skip_missing=flag("load: skip_missing", skip_missing),
+                                          allow_outside=flag("load: allow_outside", allow_outside)))
+
+
+def _outlets(what: str, outlets: Any) -> list[Any]:
+    """The outlets as a list; one alone is none."""
+    if isinstance(outlets, Iterable) and not isinstance(outlets, (str, bytes, Mapping)):
+        return list(outlets)
+    raise _core.Error(f"{what}: outlets is {shown(outlets)}, expected a list of outlets: outlets=[…]")
 
 
 def _numbers(what: str, values: Any, expected: str) -> np.ndarray:

@@ -81,6 +81,27 @@ def test_ctrl_c_ends_localization_between_tags(run):
         signal.signal(signal.SIGINT, before)
 
 
+@pytest.mark.parametrize("known, said", [
+    ({"tag_height_m": "high"}, "localize: tag_height_m is 'high', expected a number"),
+    ({"tag_height_m": np.nan}, "localize: tag_height_m is nan, expected a finite number"),
+    ({"tag_heights_m": 1}, "localize: tag_heights_m is 1, expected a mapping from name to number"),
+    ({"tag_heights_m": {"tag1": np.nan}}, "localize: tag_heights_m: 'tag1' is nan, expected a finite number"),
+    ({"pose_sigma_m": -1}, "localize: pose_sigma_m is -1, expected a finite number, 0 or more"),
+    ({"height": 3}, "localize: height is 3, expected text"),
+    ({"side": 3}, "localize: side is 3, expected text"),
+    ({"box_m": "x"}, "localize: box_m is 'x', expected a list of numbers"),
+    ({"offsets_rad": {"mobile": np.inf}}, "localize: offsets_rad: 'mobile' is inf, expected a finite number"),
+    ({"pi_ambiguity": "x"}, "localize: pi_ambiguity is 'x', expected True or False"),
+    ({"settings": 3}, "localize: settings is 3, expected a mapping from setting to value"),
+    ({"threads": 0}, "threads is 0, expected 1 to 1024"),
+])
+def test_keywords_are_checked(run, known, said):
+    with pytest.raises(tagfield.Error) as raised:
+        tagfield.localize(run.reads, run.poses, **known)
+    assert str(raised.value).startswith(said)
+    assert "\n" not in str(raised.value)
+
+
 def test_what_is_known_is_checked(run):
     with pytest.raises(tagfield.Error, match="above"):
         tagfield.localize(run.reads, run.poses, height="beside")
