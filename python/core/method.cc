@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "python/core/method.h"
 
+#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
+
+#include <algorithm>
 
 #include "python/core/arrays.h"
 #include "python/core/calls.h"
@@ -49,15 +52,45 @@ py::object samples_table(const ProblemView& view, const std::string& tag) {
 using Place = std::tuple<Eigen::Vector3d, std::optional<Eigen::Matrix3d>, double, double>;
 using Answer = std::tuple<std::string, std::string, std::vector<Place>>;
 
-TagEstimate estimate_of(const LocalizationProblem& problem, const Answer& answer) {
+/// No passive tag answers over this distance, or a tenth of it; coordinates may be anything.
+constexpr double kMaxReach_m = 1000.0;
+
+bool is_in_reach(const SamplesOfTag& samples, const Eigen::Vector3d& place) {
+  return std::any_of(samples.begin(), samples.end(), [&](const auto& of_antenna) {
+    const std::vector<PhaseSample>& series = of_antenna.second;
+    return std::any_of(series.begin(), series.end(), [&](const PhaseSample& sample) {
+      return (sample.p_WA - place).norm() <= kMaxReach_m;
+    });
+  });
+}
+
+TagEstimate estimate_of(const LocalizationProblem& problem, const Answer& answer,
+                        std::vector<std::string>& out_of_reach) {
   const auto& [tag, why, places] = answer;
-  TagEstimate estimate = begun(tag, problem.samples.at(tag));
+  const SamplesOfTag& samples = problem.samples.at(tag);
+  TagEstimate estimate = begun(tag, samples);
   if (places.empty()) return not_located(estimate, why);
   for (const auto& [place, covariance, expected_error_m, rms_m] : places) {
+    if (!is_in_reach(samples, place)) continue;
     estimate.candidates.push_back({place, rms_m, expected_error_m, covariance});
+  }
+  if (estimate.candidates.size() < places.size()) out_of_reach.push_back(tag);
+  if (estimate.candidates.empty()) {
+    return not_located(
+        estimate, fmt::format("its position is over {:g} m from where it was read", kMaxReach_m));
   }
   judge(problem.limits, estimate);
   return estimate;
+}
+
+void warn_of(const std::string& method, const std::vector<std::string>& out_of_reach,
+             Diagnostics& diagnostics) {
+  if (out_of_reach.empty()) return;
+  diagnostics.warn(
+      fmt::format("method '{}': positions over {:g} m from where a tag was read are left out, of "
+                  "{} tag{}: {}{}",
+                  method, kMaxReach_m, out_of_reach.size(), out_of_reach.size() == 1 ? "" : "s",
+                  out_of_reach.front(), out_of_reach.size() == 1 ? "" : ", …"));
 }
 
 /// The answers of a method that was called with Python's lock held.
@@ -72,11 +105,14 @@ std::vector<Answer> ask(const Held& function, const LocalizationProblem& problem
 }
 
 LocalizationResult locate(const std::string& name, const Held& function,
-                          const LocalizationProblem& problem, int threads) {
+                          const LocalizationProblem& problem, int threads,
+                          Diagnostics& diagnostics) {
   std::map<std::string, TagEstimate> by_tag;
+  std::vector<std::string> out_of_reach;
   for (const Answer& answer : ask(function, problem, threads)) {
-    by_tag[std::get<0>(answer)] = estimate_of(problem, answer);
+    by_tag[std::get<0>(answer)] = estimate_of(problem, answer, out_of_reach);
   }
+  warn_of(name, out_of_reach, diagnostics);
   LocalizationResult result;
   result.method = name;
   for (const auto& [tag, samples] : problem.samples) {
@@ -94,8 +130,8 @@ Method method_of(const std::string& name, const std::string& summary, py::object
   method.name = name;
   method.summary = summary;
   method.locate = [name, kept](const LocalizationProblem& problem, int threads,
-                               Diagnostics& /*diagnostics*/) {
-    return locate(name, kept, problem, threads);
+                               Diagnostics& diagnostics) {
+    return locate(name, kept, problem, threads, diagnostics);
   };
   return method;
 }

@@ -64,6 +64,8 @@ def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[C
     The position is not checked against the phases, as those of built-in methods are. As with any method,
     a tag is not located if its expected error or rms_m exceeds the limit (0.08 m for rms_m), if its position
     lies outside the area where tags can be, or if its reads are those of several tags or of a tag that moved.
+    Positions over 1 km from where the tag was read are left out with a warning; what is no position of two or
+    three finite numbers raises Error.
     In a bench, several threads call the function, but never at the same time.
 
     Raises Error for the name of a built-in method.
@@ -132,7 +134,10 @@ def _place(name: str, problem: Problem, tag: str, answer: Any) -> tuple:
         place = np.append(place, problem.height_m(tag))
     covariance = None
     if estimate.covariance_m2 is not None:
-        given = np.asarray(estimate.covariance_m2, dtype=float)
+        try:
+            given = np.asarray(estimate.covariance_m2, dtype=float)
+        except (TypeError, ValueError):
+            given = np.empty(0)
         if given.shape not in ((2, 2), (3, 3)) or not np.isfinite(given).all():
             raise _core.Error(f"method '{name}': tag '{tag}': covariance_m2 must be (2, 2) or (3, 3) and "
                               "finite")

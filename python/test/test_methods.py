@@ -223,6 +223,11 @@ def test_methods_say_what_they_like(run):
 
 @pytest.mark.parametrize("answer, said", [
     ((1.0, np.nan), "is not a position"), ((1.0,), "is not a position"), ({}, "{} is not a position"),
+    (np.zeros((2, 3)), "is not a position"), (np.zeros((1, 2)), "is not a position"), (3.0, "3.0 is not a position"),
+    ((1.0, 2.0, 3.0, 4.0), "is not a position: expected two or three finite numbers"), ([], "is not a position"),
+    ((np.inf, 0.0, 1.0), "is not a position"), ([(1.0, 2.0), (1.0, np.nan)], "is not a position"),
+    (tagfield.Estimate((1, 2), covariance_m2="wide"), r"covariance_m2 must be \(2, 2\)"),
+    (tagfield.Estimate((1, 2), expected_error_m="small"), "expected_error_m is 'small', expected a finite number"),
     (tagfield.Estimate((1, 2), covariance_m2=[1, 2]), "covariance_m2"),
     (tagfield.Estimate((1, 2), covariance_m2=[[1, 0], [0, -1]]), "covariance_m2 is .*, expected a symmetric"),
     (tagfield.Estimate((1, 2), covariance_m2=[[1, 0.5], [0, 1]]), "covariance_m2 is .*, expected a symmetric"),
@@ -232,6 +237,28 @@ def test_methods_say_what_they_like(run):
 def test_methods_are_checked(run, answer, said):
     with pytest.raises(tagfield.Error, match=said):
         run.localize(tagfield.method("odd")(lambda problem, tag, samples: answer))
+
+
+@pytest.mark.parametrize("far", [(1e300, 0.0, 1.0), (5000.0, 0.0), (0.0, 0.0, -1e9)])
+def test_positions_out_of_reach_are_not_located(run, far):
+    with pytest.warns(tagfield.TagfieldWarning, match="method 'far': positions over 1000 m from where a tag was read"):
+        found = run.localize(tagfield.method("far")(lambda problem, tag, samples: far))
+    assert not found.located.any()
+    assert set(found.estimates.names("reason")) == {"cannot localize: its position is over 1000 m from where it was read"}
+    assert "of 10 tags: tag1, …" in found.warnings[-1]
+    near = run.truth.positions_m()["tag1"]
+    with pytest.warns(tagfield.TagfieldWarning, match="positions over 1000 m .* of 1 tag: tag1"):
+        found = run.localize(tagfield.method("both")(
+            lambda problem, tag, samples: [far, near] if tag == "tag1" else None))
+    assert found.estimates.where(tag="tag1").names("verdict").tolist() == ["located"]
+
+
+def test_reads_anywhere_are_located(run):
+    reads, poses = run.reads.to_pandas(), run.poses.to_pandas().rename(columns={"name": "antenna"})
+    poses["x_m"] += 4.5e5  # as in UTM
+    poses["y_m"] += 5.4e6
+    found = tagfield.localize(reads, poses, strongest, tag_height_m=1)
+    assert found.located.any()
 
 
 def test_what_a_method_raises_is_raised_as_it_is(scenario):
