@@ -12,7 +12,8 @@ void register_rows() {
   PYBIND11_NUMPY_DTYPE(TagRow, stamp_ns, tag, position_m);
   PYBIND11_NUMPY_DTYPE(DistanceRow, stamp_ns, antenna, tag, distance_m);
   PYBIND11_NUMPY_DTYPE(EstimateRow, tag, verdict, reason, reads, reads_used, position_m,
-                       covariance_m2, expected_error_m, rms_m, truth_m, error_m, reference);
+                       covariance_m2, expected_error_m, rms_m, truth_m, error_m, horizontal_error_m,
+                       reference);
   PYBIND11_NUMPY_DTYPE(CandidateRow, tag, number, position_m, covariance_m2, expected_error_m,
                        rms_m);
   PYBIND11_NUMPY_DTYPE(SampleRow, stamp_ns, antenna, phase_rad, frequency_hz, rssi_dbm, position_m);

@@ -62,9 +62,10 @@ struct EstimateRow {
   double position_m[3];  ///< Of a located tag, else NaN.
   double covariance_m2[3][3];
   double expected_error_m, rms_m;
-  double truth_m[3];  ///< NaN where nobody knows it, or the tag moved.
-  double error_m;     ///< Of a located tag whose place is known.
-  bool reference;     ///< Its position was given.
+  double truth_m[3];          ///< NaN where nobody knows it, or the tag moved.
+  double error_m;             ///< Of a located tag whose place is known, in space.
+  double horizontal_error_m;  ///< The same without its part in z, as expected_error_m.
+  bool reference;             ///< Its position was given.
 };
 
 struct CandidateRow {

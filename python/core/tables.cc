@@ -81,7 +81,12 @@ EstimateRow row_of(const TagOutcome& outcome, Names& tags, Names& reasons) {
   }
   put_unknown(row.truth_m);
   if (outcome.truth_m) put(*outcome.truth_m, row.truth_m);
-  row.error_m = error_of(outcome).value_or(kUnknown);
+  row.error_m = row.horizontal_error_m = kUnknown;
+  if (const auto error = error_of(outcome)) {
+    row.error_m = *error;
+    const Eigen::Vector3d off = estimate.candidates.front().p_WT - *outcome.truth_m;
+    row.horizontal_error_m = off.head<2>().norm();
+  }
   row.reference = outcome.reference;
   return row;
 }

@@ -50,8 +50,10 @@ class Localization:
 
     estimates: one row per tag: tag, verdict (located, ambiguous, not_located), reason, reads, reads_used,
         position_m (3,) [m, world] (NaN unless located), covariance_m2 (3, 3) (NaN where not stated),
-        expected_error_m, rms_m of the best candidate, truth_m (3,) (NaN where unknown), error_m (NaN
-        where there is none), and reference (whether it is a reference tag, with a given position).
+        expected_error_m, rms_m of the best candidate, truth_m (3,) (NaN where unknown), error_m and
+        horizontal_error_m (NaN where there is none), and reference (whether it is a reference tag, with a
+        given position). expected_error_m is horizontal and is to be compared with horizontal_error_m;
+        error_m is the distance in space, as in the command's tables.
     candidates: all candidate positions of the tags: tag, number (1 is best), position_m, covariance_m2,
         expected_error_m, rms_m.
     method: name of the method.
@@ -78,8 +80,14 @@ class Localization:
 
     @property
     def errors_m(self) -> np.ndarray:
-        """(N,) errors [m]: distances between estimate and truth, of located tags with known truth."""
+        """(N,) errors [m]: distances between estimate and truth in space, of located tags with known truth."""
         errors = self.estimates["error_m"]
+        return errors[np.isfinite(errors)]
+
+    @property
+    def horizontal_errors_m(self) -> np.ndarray:
+        """(N,) the same distances seen from above [m], to compare with ``expected_error_m``."""
+        errors = self.estimates["horizontal_error_m"]
         return errors[np.isfinite(errors)]
 
     @property

@@ -239,6 +239,16 @@ def test_methods_are_checked(run, answer, said):
         run.localize(tagfield.method("odd")(lambda problem, tag, samples: answer))
 
 
+def test_errors_are_in_space_and_horizontal(run):
+    off = np.array([0.03, 0.04, 0.12])
+    found = run.localize(tagfield.method("above")(lambda problem, tag, samples: run.truth.positions_m()[tag] + off))
+    np.testing.assert_allclose(found.errors_m, 0.13, rtol=1e-9)
+    np.testing.assert_allclose(found.horizontal_errors_m, 0.05, rtol=1e-9)
+    assert "horizontal_error_m" in found.estimates.to_pandas().columns
+    lost = run.localize(tagfield.method("lost")(lambda problem, tag, samples: None))
+    assert np.isnan(lost.estimates["horizontal_error_m"]).all() and len(lost.horizontal_errors_m) == 0
+
+
 @pytest.mark.parametrize("far", [(1e300, 0.0, 1.0), (5000.0, 0.0), (0.0, 0.0, -1e9)])
 def test_positions_out_of_reach_are_not_located(run, far):
     with pytest.warns(tagfield.TagfieldWarning, match="method 'far': positions over 1000 m from where a tag was read"):

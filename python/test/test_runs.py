@@ -52,6 +52,8 @@ def test_truth_is_by_itself_consistent(run):
         assert distance["distance_m"] == pytest.approx(apart, abs=1e-9)
     errors = np.linalg.norm(run.estimates["position_m"] - run.estimates["truth_m"], axis=1)
     np.testing.assert_allclose(run.estimates["error_m"], errors, rtol=1e-12)
+    off = (run.estimates["position_m"] - run.estimates["truth_m"])[:, :2]
+    np.testing.assert_allclose(run.estimates["horizontal_error_m"], np.hypot(*off.T), rtol=1e-12)
 
 
 def test_phases_without_noise_are_those_of_the_distance(scenario):
