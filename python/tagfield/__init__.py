@@ -23,7 +23,7 @@ from ._plan import Plan, plan
 from ._reads import Calibration, calibrate, localize, methods, poses_table, read, reads_table, track
 from ._runs import Coverage, Explanation, Layer, Localization, Run, Scan, Simulation, Tracks, Truth
 from ._scenario import Outlet, Scenario, World, load, share
-from ._tables import Table
+from ._tables import Table, stack
 from ._warnings import TagfieldWarning
 
 __version__: str = _core.__version__
@@ -34,7 +34,7 @@ __all__ = [
     "Bench", "Calibration", "Coverage", "Error", "Estimate", "Explanation", "Layer", "Link", "LinkState",
     "Localization", "Method", "Outlet", "Place", "Plan", "Pose", "Problem", "Read", "Run", "Scan", "Scenario",
     "Simulation", "Table", "TagfieldWarning", "Tracks", "Truth", "World", "bench", "calibrate", "load", "localize",
-    "method", "methods", "plan", "plot", "poses_table", "read", "reads_table", "share", "track",
+    "method", "methods", "plan", "plot", "poses_table", "read", "reads_table", "share", "stack", "track",
 ]
 
 

@@ -4,18 +4,19 @@
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING, Iterable
+from typing import TYPE_CHECKING, Any, Iterable
 
 import numpy as np
 
+from . import _core
 from ._checks import names as names_in
-from ._checks import suggestion
+from ._checks import shown, suggestion
 from ._warnings import tell
 
 if TYPE_CHECKING:
     import pandas
 
-__all__ = ["Table"]
+__all__ = ["Table", "stack"]
 
 _AXES = {3: ("x", "y", "z"), 4: ("x", "y", "z", "w")}
 
@@ -40,6 +41,14 @@ class Table(np.ndarray):
 
     def __array_finalize__(self, parent):
         self.categories = getattr(parent, "categories", {})
+
+    def __array_function__(self, function, types, arguments, keywords):
+        # NumPy would number the names of all tables as those of the first one are, or lose them.
+        if function is np.concatenate and arguments[1:] in ((), (0,)) and keywords in ({}, {"axis": 0}):
+            tables = list(arguments[0])
+            if all(isinstance(table, Table) and table.ndim == 1 for table in tables):
+                return stack(tables)
+        return super().__array_function__(function, types, arguments, keywords)
 
     def __reduce__(self):
         function, arguments, state = super().__reduce__()
@@ -121,6 +130,45 @@ class Table(np.ndarray):
         if column not in self.categories:
             raise KeyError(f"'{column}' is not a column of names; these are: {', '.join(self.categories)}")
         return self.categories[column]
+
+
+def stack(tables: Iterable[Table]) -> Table:
+    """The rows of several tables with the same columns, such as the reads of many runs, as one table.
+
+        runs = scenario.run_many(100)
+        reads = tagfield.stack([run.reads for run in runs])
+
+    Names stay what they are: where tables number them differently, they are numbered anew, in the order in which they
+    first come. ``numpy.concatenate`` of tables does the same. Which run a row is of can be told in pandas:
+
+        pandas.concat({run.seed: run.reads.to_pandas() for run in runs}, names=["seed", "row"])
+
+    Raises Error for an empty list, for what is no table, and for tables with different columns.
+    """
+    given = list(tables) if isinstance(tables, Iterable) and not isinstance(tables, np.ndarray) else [tables]
+    for table in given:
+        if not isinstance(table, Table):
+            raise _core.Error(f"stack: {shown(table)} is no table, expected a list of tables")
+        if table.dtype != given[0].dtype or set(table.categories) != set(given[0].categories):
+            raise _core.Error(f"stack: a table has the columns {', '.join(table.columns)}, the first one "
+                              f"{', '.join(given[0].columns)}")
+    if not given:
+        raise _core.Error("stack: there are no tables")
+    # np.concatenate would drop the padding between the columns, which makes another type of table.
+    stacked = np.zeros(sum(table.size for table in given), given[0].dtype)
+    ends = np.cumsum([table.size for table in given])
+    for table, end in zip(given, ends, strict=True):
+        stacked[end - table.size:end] = np.asarray(table).reshape(-1)
+    categories = {}
+    for column in given[0].categories:
+        known = tuple(dict.fromkeys(name for table in given for name in table.categories[column]))
+        numbers = {name: number for number, name in enumerate(known)}
+        # Without a name it is -1, which takes the last one.
+        stacked[column] = np.concatenate([
+            np.array([*(numbers[name] for name in table.categories[column]), -1])[np.asarray(table[column]).reshape(-1)]
+            for table in given])
+        categories[column] = known
+    return Table(stacked, categories)
 
 
 def _split(column: str, values: np.ndarray) -> dict[str, np.ndarray]:

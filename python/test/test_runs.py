@@ -111,6 +111,36 @@ def test_seeds_in_parallel_are_the_same_bytes(scenario):
     assert one[0].reads.tobytes() != one[1].reads.tobytes()
 
 
+@pytest.mark.filterwarnings("ignore:.*repeat tag and stamp:tagfield.TagfieldWarning")
+def test_runs_are_stacked_with_their_names(scenario):
+    one = scenario.with_({"duration_s": 6}).run(seed=1, locate=False)
+    other = scenario.with_({"duration_s": 6}).run(seed=2, locate=False)
+    # The same names by other numbers, and one that the first table does not have.
+    renamed = tagfield.reads_table(other.reads.where(tag=["tag1", "tag2"]).to_pandas().assign(
+        tag=lambda frame: frame["tag"].astype(str).replace("tag1", "new"), reader="r2"))
+    for stacked in (tagfield.stack([one.reads, renamed]), np.concatenate([one.reads, renamed]),
+                    np.append(one.reads, renamed)):
+        assert isinstance(stacked, tagfield.Table) and stacked.dtype == one.reads.dtype
+        for column in ("reader", "antenna", "tag"):
+            assert stacked.names(column).tolist() == [*one.reads.names(column), *renamed.names(column)]
+        np.testing.assert_array_equal(stacked["phase_rad"], [*one.reads["phase_rad"], *renamed["phase_rad"]])
+        found = tagfield.localize(stacked, other.poses, "trilateration", tag_height_m=1)
+        assert set(found.estimates.names("tag")) == {*one.reads.names("tag"), "new"}
+        assert len(stacked.where(tag="new")) == (renamed.names("tag") == "new").sum() > 0
+    nameless = one.reads.copy()
+    nameless["tag"][:2] = -1
+    assert tagfield.stack([renamed, nameless]).names("tag")[len(renamed):len(renamed) + 2].tolist() == ["", ""]
+    poses = tagfield.stack(run.poses for run in (one, other))
+    assert len(poses) == len(one.poses) + len(other.poses)
+    phases = np.concatenate([one.reads["phase_rad"], other.reads["phase_rad"]])
+    assert type(phases) is np.ndarray and len(phases) == len(one.reads) + len(other.reads)
+    for wrong, said in (([], "stack: there are no tables"), ([one.reads, one.poses], "stack: a table has the columns"),
+                        ([one.reads, 3], "stack: 3 is no table, expected a list of tables"),
+                        (3, "stack: 3 is no table")):
+        with pytest.raises(tagfield.Error, match=said):
+            tagfield.stack(wrong)
+
+
 def test_changes_are_those_of_the_command(scenario):
     changed = scenario.with_("pose.source=noisy", {"antennas.mobile.range_m": 3.5}, pose={"sigma_m": 0.02})
     believed = changed.run(seed=1, locate=False)
