@@ -28,7 +28,7 @@ inline Held held(py::object object) {
 
 /// `work(control)` without Python's lock, in a thread of its own, so that Ctrl-C ends it early;
 /// then KeyboardInterrupt is thrown. `progress`, where it is not None, is called with 0 … 1 now and
-/// then.
+/// then, and with 1 when all is done.
 template <class Work>
 auto interruptible(int threads, const py::object& progress, Work work) {
   std::atomic<bool> stop{false};
@@ -54,7 +54,9 @@ auto interruptible(int threads, const py::object& progress, Work work) {
     result.wait();
     throw;
   }
-  return result.get();
+  auto done = result.get();
+  if (!progress.is_none()) progress(1.0);
+  return done;
 }
 
 }  // namespace tagfield::python

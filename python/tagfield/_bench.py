@@ -72,7 +72,8 @@ def bench(what: str | os.PathLike | Scenario, methods: str | Method | Sequence[A
     phase_noise_rad: phase noise for the bound, 0 or more, where the model states none.
     name: title of the comparison.
     skip_missing, allow_outside: for files, see :func:`load`.
-    progress: called now and then with the completed share, 0 to 1. Ctrl-C raises KeyboardInterrupt.
+    progress: called now and then with the completed share, 0 to 1, and at the end with 1. Ctrl-C raises
+        KeyboardInterrupt.
     """
     entries = _entries(methods)
     seeds = None if seeds is None else whole("bench: seeds", seeds, 1)

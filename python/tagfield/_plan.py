@@ -93,7 +93,8 @@ def plan(path: str | os.PathLike, *changes: str | Mapping[str, Any], seed: int |
     exact_s: time limit [s] for an integer program that searches for a better layout (requires CBC).
     links: folder that caches the links. With it, an interrupted plan resumes, and plans with other
         limits or aims don't compute them again.
-    progress: called now and then with the completed share, 0 to 1. Ctrl-C raises KeyboardInterrupt.
+    progress: called now and then with the completed share, 0 to 1, and at the end with 1. Ctrl-C raises
+        KeyboardInterrupt.
     """
     samples = whole("plan: samples", samples, 8, 10_000)
     check = whole("plan: check", check, 0, 10_000)

@@ -346,8 +346,8 @@ class Scenario:
         locate: False to simulate reads without localization.
         outlets: receivers of reads during the run; see :class:`Outlet`.
         threads: number of threads, by default one per CPU.
-        progress: called now and then with the completed share, 0 to 1. Ctrl-C ends the run with
-            KeyboardInterrupt.
+        progress: called now and then with the completed share, 0 to 1, and at the end with 1. Ctrl-C ends the
+            run with KeyboardInterrupt.
         """
         scenario, own = self._by("run", method)
         seed = scenario._loaded.seed if seed is None else seed_of("run", seed)
@@ -418,7 +418,7 @@ class Scenario:
         orientation: roll, pitch, yaw [rad] of the tag, or "any" or "worst".
         tag_profile: file of the tag's profile, by default the first tag's.
         tag: settings of the tag, such as {"sensitivity_dbm": -20}.
-        progress: called now and then with the completed share, 0 to 1.
+        progress: called now and then with the completed share, 0 to 1, and at the end with 1.
         """
         heights = list(heights_m) if isinstance(heights_m, Iterable) else [heights_m]
         asked = {

@@ -111,6 +111,17 @@ def test_seeds_in_parallel_are_the_same_bytes(scenario):
     assert one[0].reads.tobytes() != one[1].reads.tobytes()
 
 
+def test_progress_reaches_one(scenario):
+    short = scenario.with_({"duration_s": 4})
+    for work in (lambda progress: short.run(progress=progress), lambda progress: short.run_many(3, progress=progress),
+                 lambda progress: short.run(locate=False, progress=progress),
+                 lambda progress: short.coverage(step_m=2, heights_m=1, time_s=0, progress=progress),
+                 lambda progress: tagfield.bench(short, ["hyperbola"], seeds=2, progress=progress)):
+        shares = []
+        work(shares.append)
+        assert shares[-1] == 1 and all(0 <= share <= 1 for share in shares)
+
+
 @pytest.mark.filterwarnings("ignore:.*repeat tag and stamp:tagfield.TagfieldWarning")
 def test_runs_are_stacked_with_their_names(scenario):
     one = scenario.with_({"duration_s": 6}).run(seed=1, locate=False)

@@ -352,7 +352,7 @@ plan:
     assert made.layouts()["antennas"].tolist() == [1, 2]
     assert len(made.chosen["antennas"]) == 2 and made.data["check"]["seeds"] == [1, 2, 3]
     assert len(made.positions()) == 14 and (tmp_path / "links").is_dir()
-    assert all(0 <= share <= 1 for share in shares) and "14 tags at 14 positions" in str(made)
+    assert all(0 <= share <= 1 for share in shares) and shares[-1] == 1 and "14 tags at 14 positions" in str(made)
     made.save_page(tmp_path / "plan.html")
     assert "plan-data" in (tmp_path / "plan.html").read_text(encoding="utf-8")
     run = made.scenario.run(seed=3)
