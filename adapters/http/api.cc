@@ -291,6 +291,11 @@ class Api::Impl {
   ApiAnswer step(Call& call) {
     const double seconds = call.body.number("seconds", 1e-6, kMaxStep_s);
     call.body.finish();
+    if (const auto end = call.world.step_end()) {
+      return api_error(409, fmt::format("a step is running, to {} s: wait until the world is "
+                                        "paused, or pause it",
+                                        to_seconds(*end)));
+    }
     call.world.advance(duration_from_seconds(seconds));
     return done(call.world);
   }

@@ -272,6 +272,8 @@ double LiveWorld::pace() const {
 }
 bool LiveWorld::is_paused() const { return impl_->clock.is_paused(now()); }
 
+std::optional<Time> LiveWorld::step_end() const { return impl_->clock.step_end(now()); }
+
 void LiveWorld::set_speed(double speed) {
   if (!std::isfinite(speed) || speed < 0.0 || speed > 1e6) {
     throw Error("the speed must be from 0 (as fast as it can) to 1e6 times real time");

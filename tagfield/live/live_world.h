@@ -91,6 +91,8 @@ class LiveWorld {
   void resume();
   /// Runs for `simulated`, then pauses again.
   void advance(Duration simulated);
+  /// When the step of an advance() ends; none if there is none, or it is over.
+  [[nodiscard]] std::optional<Time> step_end() const;
 
   // All of these throw Error, one line, if a name is unknown or taken, or a value is out of range.
 

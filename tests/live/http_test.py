@@ -175,6 +175,18 @@ def time_goes_as_requested(context):
         check_between((after - before) / passed, 12, 24, "pace at a speed of 20")
 
 
+@case
+def second_step_does_not_replace_the_first(context):
+    with served(context, context.shipped(PORTAL), "--paused") as server:
+        server.post("/api/step", {"seconds": 1.5})
+        status, answer = server.ask("POST", "/api/step", {"seconds": 0.1})
+        check_equal((status, list(answer)), (409, ["error"]), "answer to a second step")
+        check_in("a step is running, to 1.5 s", answer["error"], "message")
+        status = server.wait_for(lambda now: now["paused"], "it is paused after the step")
+        check_near(status["time"], 1.5, 1e-9, "time after both")
+        server.post("/api/step", {"seconds": 0.1})
+
+
 def frames(server, count, headers=None):
     client = websocket.create_connection(f"ws://127.0.0.1:{server.port}/api/live", timeout=20,
                                          header=headers or [])

@@ -129,6 +129,21 @@ TEST_F(ApiTest, WhatIsWrongIsOneLine) {
   EXPECT_EQ(world_.tags().size(), 1U);
 }
 
+TEST_F(ApiTest, AStepIsNotReplacedByAnother) {
+  EXPECT_EQ(ask("POST", "/api/step", R"({"seconds": 2})").status, 200);
+  const ApiResponse second = ask("POST", "/api/step", R"({"seconds": 0.5})");
+  EXPECT_EQ(second.status, 409);
+  EXPECT_EQ(nlohmann::json::parse(second.body)["error"],
+            "a step is running, to 2 s: wait until the world is paused, or pause it");
+  EXPECT_EQ(world_.step_end(), time_from_seconds(2.0));
+  EXPECT_EQ(ask("POST", "/api/pause").status, 200);
+  EXPECT_EQ(ask("POST", "/api/step", R"({"seconds": 0.5})").status, 200);
+  EXPECT_EQ(world_.step_end(), time_from_seconds(0.5));
+  EXPECT_EQ(ask("POST", "/api/resume").status, 200);  // without end: a step may end it
+  EXPECT_EQ(world_.step_end(), std::nullopt);
+  EXPECT_EQ(ask("POST", "/api/step", R"({"seconds": 0.5})").status, 200);
+}
+
 TEST_F(ApiTest, CoverageAgreesWithTheLink) {
   const auto json = nlohmann::json::parse(ask("GET", "/api/coverage?antenna=gate&height=0").body);
   const double x0 = json["x0"];

@@ -46,6 +46,11 @@ void LiveClock::run_until(Time until, Time now, Wall wall) {
   measure_from(now, wall);
 }
 
+std::optional<Time> LiveClock::step_end(Time now) const {
+  if (is_paused(now) || until_ == Time::max()) return std::nullopt;
+  return until_;
+}
+
 LiveClock::Wall LiveClock::due(Time end) const {
   if (!(speed_ > 0.0)) return anchor_wall_;
   const std::chrono::duration<double> after(to_seconds(end - anchor_) / speed_);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 
 #include "tagfield/base/time.h"
 
@@ -20,6 +21,8 @@ class LiveClock {
 
   [[nodiscard]] double speed() const { return speed_; }
   [[nodiscard]] bool is_paused(Time now) const { return now >= until_; }
+  /// Where run_until() pauses it; none while it is paused or runs without end.
+  [[nodiscard]] std::optional<Time> step_end(Time now) const;
   void set_speed(double speed, Time now, Wall wall);
   void pause();
   void resume(Time now, Wall wall);

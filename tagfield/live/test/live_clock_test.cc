@@ -41,6 +41,16 @@ TEST(LiveClock, RunsUntilAndIsPausedThen) {
   EXPECT_EQ(clock.due(at(0.5)), wall(seconds(10) + milliseconds(250)));
 }
 
+TEST(LiveClock, TellsWhenAStepEnds) {
+  LiveClock clock(1.0, true);
+  EXPECT_EQ(clock.step_end(at(0.0)), std::nullopt);
+  clock.run_until(at(0.5), at(0.0), wall(seconds(10)));
+  EXPECT_EQ(clock.step_end(at(0.4)), at(0.5));
+  EXPECT_EQ(clock.step_end(at(0.5)), std::nullopt);
+  clock.resume(at(0.5), wall(seconds(11)));
+  EXPECT_EQ(clock.step_end(at(9.0)), std::nullopt);
+}
+
 TEST(LiveClock, WhatItFellBehindIsNotMadeUpFor) {
   LiveClock clock(1.0, false);
   clock.set_speed(1.0, at(0.0), wall(seconds(0)));
