@@ -228,6 +228,7 @@ class Api::Impl {
     const char* method;
     const char* path;
     Handler handler;
+    std::vector<std::string> parameters;  ///< Of the query.
   };
   static const std::vector<Route>& all_routes();
 
@@ -391,29 +392,29 @@ class Api::Impl {
 
 const std::vector<Api::Impl::Route>& Api::Impl::all_routes() {
   static const std::vector<Route> all = {
-      {"GET", "/api/status", &Impl::status},
-      {"GET", "/api/scene", &Impl::scene},
-      {"GET", "/api/antennas", &Impl::antennas},
-      {"GET", "/api/tags", &Impl::tags},
-      {"GET", "/api/estimates", &Impl::located},
-      {"GET", "/api/plan", &Impl::planned},
-      {"GET", "/api/explain", &Impl::explain},
-      {"GET", "/api/coverage", &Impl::coverage},
-      {"POST", "/api/pause", &Impl::pause},
-      {"POST", "/api/resume", &Impl::resume},
-      {"POST", "/api/step", &Impl::step},
-      {"POST", "/api/speed", &Impl::speed},
-      {"POST", "/api/tags", &Impl::add_tag},
-      {"DELETE", "/api/tags/{id}", &Impl::remove_tag},
-      {"POST", "/api/tags/{id}/move", &Impl::move_tag},
-      {"POST", "/api/tags/{id}/detune", &Impl::detune_tag},
-      {"POST", "/api/antennas", &Impl::add_antenna},
-      {"DELETE", "/api/antennas/{name}", &Impl::remove_antenna},
-      {"POST", "/api/antennas/{name}/move", &Impl::move_antenna},
-      {"POST", "/api/antennas/{name}/disconnect", &Impl::disconnect},
-      {"POST", "/api/antennas/{name}/connect", &Impl::connect},
-      {"POST", "/api/obstacles", &Impl::add_obstacle},
-      {"DELETE", "/api/obstacles/{name}", &Impl::remove_obstacle},
+      {"GET", "/api/status", &Impl::status, {}},
+      {"GET", "/api/scene", &Impl::scene, {}},
+      {"GET", "/api/antennas", &Impl::antennas, {}},
+      {"GET", "/api/tags", &Impl::tags, {}},
+      {"GET", "/api/estimates", &Impl::located, {}},
+      {"GET", "/api/plan", &Impl::planned, {}},
+      {"GET", "/api/explain", &Impl::explain, {"antenna", "tag"}},
+      {"GET", "/api/coverage", &Impl::coverage, {"antenna", "height", "cell"}},
+      {"POST", "/api/pause", &Impl::pause, {}},
+      {"POST", "/api/resume", &Impl::resume, {}},
+      {"POST", "/api/step", &Impl::step, {}},
+      {"POST", "/api/speed", &Impl::speed, {}},
+      {"POST", "/api/tags", &Impl::add_tag, {}},
+      {"DELETE", "/api/tags/{id}", &Impl::remove_tag, {}},
+      {"POST", "/api/tags/{id}/move", &Impl::move_tag, {}},
+      {"POST", "/api/tags/{id}/detune", &Impl::detune_tag, {}},
+      {"POST", "/api/antennas", &Impl::add_antenna, {}},
+      {"DELETE", "/api/antennas/{name}", &Impl::remove_antenna, {}},
+      {"POST", "/api/antennas/{name}/move", &Impl::move_antenna, {}},
+      {"POST", "/api/antennas/{name}/disconnect", &Impl::disconnect, {}},
+      {"POST", "/api/antennas/{name}/connect", &Impl::connect, {}},
+      {"POST", "/api/obstacles", &Impl::add_obstacle, {}},
+      {"DELETE", "/api/obstacles/{name}", &Impl::remove_obstacle, {}},
   };
   return all;
 }
@@ -447,6 +448,7 @@ ApiAnswer Api::answer(LiveWorld& world, const ApiRequest& request, const std::at
       if (!matches(*target, route.path)) continue;
       is_path = true;
       if (request.method != route.method) continue;
+      require_known(*target, route.parameters);
       JsonArguments body(request.body);
       Impl::Call call{world, *target, body, stop};
       return ((*impl_).*(route.handler))(call);

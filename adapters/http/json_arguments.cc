@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/spelling.h"
 
 namespace tagfield::http {
 namespace {
@@ -34,12 +35,15 @@ JsonArguments::JsonArguments(const std::string& body) : values_(nlohmann::json::
   if (!values_.is_object()) throw Error("the body must be a JSON object");
 }
 
-bool JsonArguments::has(const std::string& key) const { return values_.contains(key); }
+bool JsonArguments::has(const std::string& key) {
+  asked_.insert(key);
+  return values_.contains(key);
+}
 
 const nlohmann::json& JsonArguments::at(const std::string& key) {
+  asked_.insert(key);
   const auto found = values_.find(key);
   if (found == values_.end()) throw Error(fmt::format("'{}' is missing", key));
-  taken_.insert(key);
   return *found;
 }
 
@@ -76,7 +80,10 @@ std::vector<double> JsonArguments::numbers(const std::string& key, std::size_t c
 
 void JsonArguments::finish() const {
   for (const auto& [key, value] : values_.items()) {
-    if (taken_.count(key) == 0) throw Error(fmt::format("'{}' is not known here", key));
+    if (asked_.count(key) > 0) continue;
+    const std::string near = nearest_word(key, {asked_.begin(), asked_.end()});
+    throw Error(fmt::format("'{}' is not known here{}", key,
+                            near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
   }
 }
 

@@ -19,7 +19,7 @@ class JsonArguments {
   /// `body`: a JSON object; empty text counts as one without keys.
   explicit JsonArguments(const std::string& body);
 
-  [[nodiscard]] bool has(const std::string& key) const;
+  [[nodiscard]] bool has(const std::string& key);
   /// 1 to 1000 bytes without control characters.
   std::string text(const std::string& key);
   /// Finite and from `least` to `most`.
@@ -34,7 +34,7 @@ class JsonArguments {
   const nlohmann::json& at(const std::string& key);
 
   nlohmann::json values_;
-  std::set<std::string> taken_;
+  std::set<std::string> asked_;  ///< The keys that are known here, as far as requested.
 };
 
 }  // namespace tagfield::http

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "adapters/http/target.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "tagfield/base/error.h"
+#include "tagfield/base/spelling.h"
 
 namespace tagfield::http {
 namespace {
@@ -67,6 +72,14 @@ std::optional<Target> parsed_target(std::string_view text) {
     if (!pair.empty() && !add_value(pair, target)) return std::nullopt;
   }
   return target;
+}
+
+void require_known(const Target& target, const std::vector<std::string>& known) {
+  for (const auto& [key, value] : target.values) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    throw Error(fmt::format("'?{}' is not a parameter here{}", key,
+                            known.empty() ? ": expected none" : suggestion(key, known)));
+  }
 }
 
 bool matches(const Target& target, std::string_view pattern) {

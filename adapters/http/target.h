@@ -26,6 +26,9 @@ struct Target {
 /// None if it does not begin with '/' or has a broken escape or an escaped control character.
 std::optional<Target> parsed_target(std::string_view target);
 
+/// Throws Error, one line that names it, if the query has a parameter other than `known`.
+void require_known(const Target& target, const std::vector<std::string>& known);
+
 /// Whether the parts match `pattern`, in which "{…}" stands for any one part.
 bool matches(const Target& target, std::string_view pattern);
 

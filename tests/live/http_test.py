@@ -187,6 +187,18 @@ def second_step_does_not_replace_the_first(context):
         server.post("/api/step", {"seconds": 0.1})
 
 
+@case
+def unknown_parameters_are_refused(context):
+    with served(context, context.shipped(PORTAL), "--paused") as server:
+        for target, said in (("/api/reads?antena=port_1", "did you mean 'antenna'?"),
+                             ("/api/explain?antenna=port_1&tga=tag_01", "did you mean 'tag'?"),
+                             ("/api/status?full=1", "'?full' is not a parameter here: expected none")):
+            status, answer = server.ask("GET", target)
+            check_equal(status, 400, f"status of {target}")
+            check_in(said, answer["error"], f"message of {target}")
+        check_equal(server.ask("GET", "/api/reads?tag=%zz")[0], 400, "status of a broken escape")
+
+
 def frames(server, count, headers=None):
     client = websocket.create_connection(f"ws://127.0.0.1:{server.port}/api/live", timeout=20,
                                          header=headers or [])

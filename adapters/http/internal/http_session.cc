@@ -15,6 +15,8 @@
 #include "adapters/http/admission.h"
 #include "adapters/http/embedded.h"
 #include "adapters/http/internal/server_context.h"
+#include "adapters/http/target.h"
+#include "tagfield/base/error.h"
 
 namespace tagfield::http {
 namespace {
@@ -38,6 +40,18 @@ constexpr const char* kNoPage =
     "<!doctype html><meta charset=utf-8><title>Tagfield</title><p>This tagfield was built without "
     "its page, as npm (Node.js) was missing. The world is at <a href=/api/status>/api/status</a>, "
     "all of the API in <a href=/api/openapi.json>/api/openapi.json</a>.";
+
+/// Response that refuses a request for reads; none if it is acceptable.
+std::optional<ApiResponse> refusal_of_reads(std::string_view address) {
+  const std::optional<Target> target = parsed_target(address);
+  if (!target) return api_error(400, "the address is malformed");
+  try {
+    require_known(*target, {"tag", "antenna", "reader"});
+  } catch (const Error& error) {
+    return api_error(400, error.what());
+  }
+  return std::nullopt;
+}
 
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
@@ -143,6 +157,7 @@ void HttpSession::handle(Request request) {
     return serve_frames(context_, std::move(stream_), std::move(request), count_);
   }
   if (is_get && context_.feed && path.substr(0, path.find('?')) == "/api/reads") {
+    if (const auto refused = refusal_of_reads(path)) return respond(*refused);
     return serve_reads(context_, std::move(stream_), request, count_);
   }
   if (is_get && path == "/") {

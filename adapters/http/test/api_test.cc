@@ -117,6 +117,8 @@ TEST_F(ApiTest, WhatIsWrongIsOneLine) {
             "each number of 'position' must be from -100000 to 100000, is 1e+09");
   EXPECT_EQ(error("POST", "/api/tags", R"({"id": "x", "position": [1, 2, 3], "z": 1})"),
             "'z' is not known here");
+  EXPECT_EQ(error("POST", "/api/tags", R"({"id": "x", "position": [1, 2, 3], "lik": "tag 1"})"),
+            "'lik' is not known here (did you mean 'like'?)");
   EXPECT_EQ(error("POST", "/api/tags", R"({"id": "tag 1", "position": [1, 2, 3]})"),
             "there is a tag with the ID 'tag 1' already");
   EXPECT_EQ(error("POST", "/api/antennas/nobody/connect"), "there is no antenna called 'nobody'");
@@ -142,6 +144,32 @@ TEST_F(ApiTest, AStepIsNotReplacedByAnother) {
   EXPECT_EQ(ask("POST", "/api/resume").status, 200);  // without end: a step may end it
   EXPECT_EQ(world_.step_end(), std::nullopt);
   EXPECT_EQ(ask("POST", "/api/step", R"({"seconds": 0.5})").status, 200);
+}
+
+TEST_F(ApiTest, ParametersThatAreNotKnownAreRefused) {
+  EXPECT_EQ(error("GET", "/api/explain?antena=gate&tag=tag%201"),
+            "'?antena' is not a parameter here (did you mean 'antenna'?)");
+  EXPECT_EQ(error("GET", "/api/coverage?antenna=gate&zz=1"),
+            "'?zz' is not a parameter here (known: antenna, height, cell)");
+  EXPECT_EQ(error("POST", "/api/pause?x=1"), "'?x' is not a parameter here: expected none");
+  EXPECT_TRUE(world_.is_paused());
+  const auto described = nlohmann::json::parse(openapi_file());
+  for (const std::string& route : Api::routes()) {
+    const std::string method = route.substr(0, route.find(' '));
+    const std::string path = route.substr(route.find(' ') + 1);
+    EXPECT_NE(error(method, path + "?zz=1").find("'?zz' is not a parameter"), std::string::npos);
+    const auto& operation = described["paths"][path][method == "GET"    ? "get"
+                                                     : method == "POST" ? "post"
+                                                                        : "delete"];
+    if (!operation.contains("parameters")) continue;
+    for (const auto& parameter : operation["parameters"]) {
+      if (parameter["in"] != "query") continue;
+      const std::string name = parameter["name"];
+      EXPECT_EQ(ask(method, path + "?" + name + "=").body.find("not a parameter"),
+                std::string::npos)
+          << path << " " << name;
+    }
+  }
 }
 
 TEST_F(ApiTest, CoverageAgreesWithTheLink) {

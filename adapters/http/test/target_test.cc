@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "tagfield/base/error.h"
+
 namespace tagfield::http {
 namespace {
 
@@ -33,6 +35,18 @@ TEST(Target, MatchesAPattern) {
   EXPECT_FALSE(matches(*target, "/api/tags/{id}/move/x"));
   EXPECT_FALSE(matches(*target, "/api/antennas/{id}/move"));
   EXPECT_FALSE(matches(*parsed_target("/api/tags//move"), "/api/tags/{id}/move"));
+}
+
+TEST(Target, UnknownParametersAreRefused) {
+  const auto target = parsed_target("/api/reads?tag=a&reder=b");
+  require_known(*target, {"tag", "reder"});
+  require_known(*parsed_target("/api/reads"), {});
+  try {
+    require_known(*target, {"tag", "reader"});
+    ADD_FAILURE() << "'reder' was taken";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "'?reder' is not a parameter here (did you mean 'reader'?)");
+  }
 }
 
 RC_GTEST_PROP(Target, AnyNameComesThroughItsEscape, (std::vector<unsigned char> bytes)) {
