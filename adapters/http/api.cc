@@ -25,6 +25,7 @@ namespace {
 /// Halls extend to 100 km at most, as in scenarios.
 constexpr double kMaxPlace_m = 1e5;
 constexpr double kMaxStep_s = 1e6;
+constexpr const char* kDefaultMaterial = "metal";  ///< Of obstacles.
 constexpr std::size_t kMaxCoverageCells = 40'000;
 constexpr double kMinCell_m = 0.25;  ///< Default minimum.
 /// Limits on what clients can add to the scenario.
@@ -111,7 +112,7 @@ ObstacleSpec obstacle_of(JsonArguments& body, const LiveWorld& world) {
   obstacle.yaw_rad = radians(body.number("yaw_deg", -360.0, 360.0, 0.0));
   BodySpec solid;
   solid.height_m = body.number("height", 1e-3, 1e3, solid.height_m);
-  const std::string material = body.has("material") ? body.text("material") : "metal";
+  const std::string material = body.has("material") ? body.text("material") : kDefaultMaterial;
   solid.material = find_material(world.scenario().materials.materials, material);
   obstacle.body = solid;
   return obstacle;
@@ -376,7 +377,9 @@ class Api::Impl {
     const ObstacleSpec obstacle = obstacle_of(call.body, call.world);
     call.body.finish();
     call.world.add_obstacle(obstacle);
-    return done(call.world);
+    Json json = status_json(call.world);
+    json["material"] = obstacle.body->material.name;
+    return ApiResponse{200, json_text(json)};
   }
   ApiAnswer remove_obstacle(Call& call) {
     call.world.remove_obstacle(name_in(call));

@@ -118,7 +118,8 @@ def all_that_openapi_describes_is_so(context):
         ask("POST", "/api/antennas/{name}/disconnect", name="port_5")
         ask("POST", "/api/antennas/{name}/connect", name="port_5")
         ask("DELETE", "/api/antennas/{name}", name="port_5")
-        ask("POST", "/api/obstacles", {"name": "pallet", "position": [1, 1], "size": [1, 0.8]})
+        added = ask("POST", "/api/obstacles", {"name": "pallet", "position": [1, 1], "size": [1, 0.8]})
+        check_equal(added["material"], "metal", "material of the obstacle")
         ask("GET", "/api/scene")
         ask("DELETE", "/api/obstacles/{name}", name="pallet")
         for line in reads_of(server, 50):

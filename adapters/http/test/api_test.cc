@@ -172,6 +172,23 @@ TEST_F(ApiTest, ParametersThatAreNotKnownAreRefused) {
   }
 }
 
+TEST_F(ApiTest, AnObstacleIsOfMetalUnlessItSaysOtherwise) {
+  const auto material = [&](const std::string& body) -> std::string {
+    const ApiResponse added = ask("POST", "/api/obstacles", body);
+    EXPECT_EQ(added.status, 200) << added.body;
+    EXPECT_EQ(world_.scenario().obstacles.back().body->material.name,
+              nlohmann::json::parse(added.body)["material"]);
+    return nlohmann::json::parse(added.body)["material"];
+  };
+  EXPECT_EQ(material(R"({"name": "a", "position": [1, 1], "radius": 1})"), "metal");
+  EXPECT_EQ(material(R"({"name": "b", "position": [1, 1], "radius": 1, "material": "wood"})"),
+            "wood");
+  const auto described = nlohmann::json::parse(openapi_file());
+  EXPECT_EQ(described["paths"]["/api/obstacles"]["post"]["requestBody"]["content"]
+                     ["application/json"]["schema"]["properties"]["material"]["default"],
+            "metal");
+}
+
 TEST_F(ApiTest, CoverageAgreesWithTheLink) {
   const auto json = nlohmann::json::parse(ask("GET", "/api/coverage?antenna=gate&height=0").body);
   const double x0 = json["x0"];
