@@ -53,7 +53,7 @@ void draw_cells(Svg& svg, const MapView& map, const OccupancyGrid& cells,
   end_group(svg);
 }
 
-void draw_antennas(Svg& svg, MapView& map, const Coverage& coverage) {
+void draw_antenna_marks(Svg& svg, MapView& map, const Coverage& coverage) {
   for (const CoverageAntenna& antenna : coverage.antennas) {
     if (antenna.places_W.empty()) continue;
     const Place first = on_map(map, antenna.places_W.front());
@@ -68,7 +68,15 @@ void draw_antennas(Svg& svg, MapView& map, const Coverage& coverage) {
                     clean_text(antenna.name));
     }
     take_place(map, first, 8.0);
-    draw_label(svg, map, first, shortened(antenna.name, 18));
+  }
+}
+
+/// All marks come before the first name, so that no name covers another antenna.
+void draw_antennas(Svg& svg, MapView& map, const Coverage& coverage) {
+  draw_antenna_marks(svg, map, coverage);
+  for (const CoverageAntenna& antenna : coverage.antennas) {
+    if (antenna.places_W.empty()) continue;
+    draw_label(svg, map, on_map(map, antenna.places_W.front()), shortened(antenna.name, 18));
   }
 }
 

@@ -90,17 +90,25 @@ void draw_paths(Svg& svg, MapView& map, const RunFiles& run) {
   }
 }
 
+Place fixed_place(const MapView& map, const AntennaTrack& track) {
+  return on_map(map, track.best().front().X_WB.translation);
+}
+
+/// All marks come before the first name, so that no name covers another antenna.
 void draw_antennas(Svg& svg, MapView& map, const RunFiles& run, bool labelled) {
   for (const AntennaTrack& track : run.tracks) {
     if (track.moving) {
       draw_direction(svg, map, track.best());
       continue;
     }
-    const Place place = on_map(map, track.best().front().X_WB.translation);
+    const Place place = fixed_place(map, track);
     add_rectangle(svg, place - Place(7, 6), {14, 12}, styled("ink"),
                   clean_text(track.antenna) + ", fixed antenna");
     take_place(map, place, 8.0);
-    if (labelled) draw_label(svg, map, place, shortened(track.antenna, 18));
+  }
+  if (!labelled) return;
+  for (const AntennaTrack& track : run.tracks) {
+    if (!track.moving) draw_label(svg, map, fixed_place(map, track), shortened(track.antenna, 18));
   }
 }
 

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 
+#include "tagfield/report/coverage_figure.h"
 #include "tagfield/report/coverage_page.h"
 #include "tagfield/report/internal/color_bands.h"
 
@@ -59,6 +62,59 @@ TEST(Coverage, IsAPageThatHoldsAllMaps) {
   EXPECT_NE(page.find("id=\"margin_1.25m\""), std::string::npos);
   EXPECT_NE(page.find("never read"), std::string::npos);
   EXPECT_EQ(page.find("nan"), std::string::npos);
+}
+
+using Box = Eigen::AlignedBox2d;
+
+/// The boxes of all matches of `pattern`, whose groups are four numbers or a text's place.
+std::vector<Box> boxes_of(const std::string& svg, const std::regex& pattern) {
+  std::vector<Box> boxes;
+  for (std::sregex_iterator found(svg.begin(), svg.end(), pattern), end; found != end; ++found) {
+    const Eigen::Vector2d corner(std::stod((*found)[1]), std::stod((*found)[2]));
+    boxes.emplace_back(corner,
+                       corner + Eigen::Vector2d(std::stod((*found)[3]), std::stod((*found)[4])));
+  }
+  return boxes;
+}
+
+std::vector<Box> names_of(const std::string& svg) {
+  const std::regex pattern(
+      R"re(<text x="([\d.]+)" y="([\d.]+)"(?: text-anchor="(\w+)")? class="rim">([^<]*)<)re");
+  std::vector<Box> boxes;
+  for (std::sregex_iterator found(svg.begin(), svg.end(), pattern), end; found != end; ++found) {
+    const double width = text_width((*found)[4]);
+    const std::string anchor = (*found)[3];
+    const double left = std::stod((*found)[1]) - (anchor == "middle" ? width / 2
+                                                  : anchor == "end"  ? width
+                                                                     : 0.0);
+    const double baseline = std::stod((*found)[2]);
+    boxes.emplace_back(Eigen::Vector2d(left, baseline - 11.0),
+                       Eigen::Vector2d(left + width, baseline + 3.0));
+  }
+  return boxes;
+}
+
+TEST(CoverageFigure, NamesOfAntennasCoverNeitherEachOtherNorAntennas) {
+  Coverage coverage = two_cells();
+  coverage.grid = {{-15.0, -5.0}, 15.0, 2, 1};
+  coverage.antennas.clear();
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = "doorway_" + std::to_string(i);
+    coverage.antennas.push_back({name, {{1.5 * i - 3.0, 2.0, 1.0}}, false});
+  }
+  const std::string svg =
+      coverage_figure(coverage, coverage.layers.front(), CoverageQuantity::kMargin, {}).svg.body;
+  const std::vector<Box> antennas = boxes_of(
+      svg,
+      std::regex(
+          R"re(<rect x="([\d.]+)" y="([\d.]+)" width="(14)" height="(12)" class="antenna")re"));
+  const std::vector<Box> names = names_of(svg);
+  EXPECT_EQ(antennas.size(), 4U);
+  EXPECT_GE(names.size(), 2U);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (const Box& antenna : antennas) EXPECT_FALSE(names[i].intersects(antenna)) << i;
+    for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(names[i].intersects(names[j])) << i << j;
+  }
 }
 
 TEST(ColorBands, HoldTheirLowerEdge) {
