@@ -12,6 +12,7 @@ npm packages, Chromium or its WebGL are not available.
 
 import base64
 import bisect
+import collections
 import contextlib
 import functools
 import json
@@ -394,6 +395,18 @@ def all_that_can_be_pressed_has_a_name(context, one, address, shared):
                 "the status line's aria-live")
 
 
+def share_drawn(one):
+    """Share of the visible canvas that differs from its most frequent colour."""
+    one.wait("view.stage.frames > 5", "frames were drawn")
+    left, top, width, bottom = one.ask("""(() => {
+      const box = at.canvas.getBoundingClientRect();
+      return [box.left, box.top, box.width, at.root.querySelector('.panels').getBoundingClientRect().top];
+    })()""")
+    rows = one.pixels(left, top, width, bottom - top)
+    colors = [color for row in rows[::4] for color in row[::4]]
+    return 1 - max(collections.Counter(colors).values()) / len(colors)
+
+
 @with_page()
 def phone_has_room(context, one, address, shared):
     one.screen(390, 844, mobile=True)
@@ -407,6 +420,7 @@ def phone_has_room(context, one, address, shared):
         check_equal(outside, [], f"{what}: controls out of sight")
         check_between(one.ask("at.canvas.clientHeight"), 250, 700,
                       f"{what}: the height of what is drawn [px]")
+        check_between(share_drawn(one), 0.1, 1, f"{what}: share of the canvas with something on it")
         small = one.ask(SMALL_BUTTONS)
         check_equal(small, [], f"{what}: buttons of less than 24 px")
 
@@ -465,6 +479,21 @@ def no_barrier_is_serious(context, one, address, shared):
 @with_page("--change-while-loading")
 def changes_while_the_page_loads_are_not_missed(context, one, address, shared):
     one.wait("world.position.slice(0, 3).join() === '1,2,3'", "the tag is where it was moved to", 20)
+
+
+@with_page("--late-frames")
+def world_that_is_set_back_is_fetched_anew(context, one, address, shared):
+    one.wait("world.time > 0.5", "time goes on")
+    one.requests()
+    end = one.ask("world.time") + 3
+    one.do("view.time.command('POST', 'step', {seconds: 3})")
+    one.wait(f"world.time > {end}", "the step's answer is there")
+    one.driver.execute_async_script("setTimeout(arguments[0], 1000)")  # and the frames that it overtook
+    again = [url for url in one.requests() if url.endswith("/api/scene")]
+    check_equal(again, [], "requests after an answer that overtook frames")
+    urllib.request.urlopen(f"{address}/api/set-back", data=b"{}").close()
+    one.wait("world.position.slice(0, 3).join() === '1,2,3'", "the world was fetched anew", 20)
+    one.wait("world.time < 3", "it goes by the time of the frames", 20)
 
 
 @with_page()

@@ -4,11 +4,15 @@
 //
 //   node mock.mjs PAGE.html RUN_FOLDER WORLD.sdf [--tags N] [--port P] [--recorded]
 //                 [--explain TAGFIELD SCENARIO] [--modules DIR] [--change-while-loading]
+//                 [--late-frames]
 //
 // The first line printed is "http: http://127.0.0.1:PORT". Link and coverage are computed by the
 // real program given with --explain; without it these requests are answered with 409.
 // With --change-while-loading the first tag moves to (1, 2, 3) after the first answer to
 // GET /api/tags was put together, and a frame says so before that answer is sent.
+// With --late-frames each frame is sent 0.3 s late, so that answers overtake frames.
+// POST /api/set-back sets the time to 0 and moves the first tag to (1, 2, 3) without a frame that says
+// so, as when another server takes the place of this one.
 
 import {execFile} from "node:child_process";
 import {mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
@@ -23,6 +27,7 @@ import {promisify} from "node:util";
 import {poseOf, readRun} from "./run.mjs";
 
 const FRAME_S = 0.05;
+const LATE_MS = 300;
 const SYNTHETIC_READS_S = 1000;  // Of all synthetic tags together, per second of wall-clock time.
 const call = promisify(execFile);
 
@@ -34,6 +39,7 @@ function parse(words) {
     recorded: false,
     explain: null,
     changesWhileLoading: false,
+    lateFrames: false,
     modules: path.join(path.dirname(fileURLToPath(import.meta.url)), "..")
   };
   while (words.length) {
@@ -50,6 +56,8 @@ function parse(words) {
       given.modules = words.shift();
     else if (word === "--change-while-loading")
       given.changesWhileLoading = true;
+    else if (word === "--late-frames")
+      given.lateFrames = true;
     else
       given.files.push(word);
   }
@@ -163,7 +171,11 @@ function advance(seconds) {
   if (world.changed) frame.changed = true;
   world.changed = false;
   world.moved = [];
-  const text = JSON.stringify(frame);
+  send(JSON.stringify(frame));
+}
+
+async function send(text) {
+  if (given.lateFrames) await setTimeout(LATE_MS);
   for (const socket of sockets)
     if (socket.bufferedAmount < 1 << 20) socket.send(text);
 }
@@ -317,6 +329,8 @@ async function answer(method, words, query, body) {
     world.speed = body.speed || 100;
   else if (what === "step")
     advance(body.seconds);
+  else if (what === "set-back")
+    [world.time, world.tags[0].position] = [0, [1, 2, 3]];
   else if (["tags", "antennas", "obstacles"].includes(words[0]))
     change(method, words, body);
   else
