@@ -3,6 +3,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -57,6 +58,19 @@ class Asked {
       refuse(key, kExpected<T>);
     }
   }
+  [[noreturn]] void refuse(const char* key, const char* expected) const {
+    throw Error(command_ + ": " + key + " is " + std::string(py::repr(keywords_[key])) +
+                ", expected " + expected);
+  }
+  /// A list of finite numbers.
+  [[nodiscard]] std::optional<std::vector<double>> list(const char* key) const {
+    auto values = get<std::vector<double>>(key);
+    const auto is_finite = [](double value) { return std::isfinite(value); };
+    if (values && !std::all_of(values->begin(), values->end(), is_finite)) {
+      refuse(key, "finite numbers");
+    }
+    return values;
+  }
   /// Finite numbers by name.
   [[nodiscard]] std::optional<std::map<std::string, double>> numbers(const char* key) const {
     auto values = get<std::map<std::string, double>>(key);
@@ -77,11 +91,6 @@ class Asked {
   }
 
  private:
-  [[noreturn]] void refuse(const char* key, const char* expected) const {
-    throw Error(command_ + ": " + key + " is " + std::string(py::repr(keywords_[key])) +
-                ", expected " + expected);
-  }
-
   py::dict keywords_;
   std::string command_;
 };
@@ -127,12 +136,11 @@ void take_offsets(const Asked& asked, const std::vector<TagRead>& reads, KnownBe
 
 void take_area(const Asked& asked, KnownBeforehand& known) {
   if (const auto side = asked.get<std::string>("side")) known.area.side = tag_side(*side);
-  const auto box = asked.get<std::vector<double>>("box_m");
+  const auto box = asked.list("box_m");
   if (!box) return;
   if (box->size() != 4) throw Error("localize: box_m must be four numbers: x0, y0, x1, y1");
   const Eigen::Vector2d one((*box)[0], (*box)[1]);
   const Eigen::Vector2d other((*box)[2], (*box)[3]);
-  if (!one.allFinite() || !other.allFinite()) throw Error("localize: box_m must be finite");
   known.area.box = Eigen::AlignedBox2d(one.cwiseMin(other), one.cwiseMax(other));
 }
 
@@ -267,7 +275,7 @@ TrackingSpec tracking_of(const Asked& asked, const LoadedPtr& loaded) {
   if (loaded) spec = loaded->parts.scenario.tracking;
   TrackingOptions& options = spec.options;
   if (const auto method = asked.get<std::string>("method")) options.method = track_method(*method);
-  if (const auto lane = asked.get<std::vector<double>>("lane")) {
+  if (const auto lane = asked.list("lane")) {
     if (lane->size() != 3 && lane->size() != 4) {
       throw Error("track: lane must be x, y [m], heading [deg] and, if given, sigma [m]");
     }
@@ -281,12 +289,15 @@ TrackingSpec tracking_of(const Asked& asked, const LoadedPtr& loaded) {
     if (!options.lane) throw Error("track: bidirectional can only be used with a lane");
     options.lane->bidirectional = *bidirectional;
   }
-  if (const auto line = asked.get<std::vector<double>>("line")) {
+  if (const auto line = asked.list("line")) {
     if (line->size() != 3) throw Error("track: line must be x, y [m] and heading [deg]");
     spec.line = PassingLine{{(*line)[0], (*line)[1]}, radians((*line)[2])};
   }
   if (const auto speeds = asked.get<std::pair<double, double>>("speed_m_s")) {
     std::tie(options.min_speed_m_s, options.max_speed_m_s) = *speeds;
+    if (!std::isfinite(speeds->first) || !std::isfinite(speeds->second)) {
+      asked.refuse("speed_m_s", "two finite numbers");
+    }
   }
   options.acceleration_noise =
       asked.number("acceleration_noise", 0.0).value_or(options.acceleration_noise);

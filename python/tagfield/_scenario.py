@@ -28,7 +28,7 @@ def share(name: str) -> str:
 
     The folders are ``scenarios/``, ``worlds/`` and ``profiles/``. Raises Error if the file does not exist.
     """
-    path = _PACKAGE / "share" / name
+    path = _PACKAGE / "share" / path_of("share: name", name)
     if path.exists():
         return str(path)
     raise _core.Error(f"share: Tagfield comes with no file '{name}'")
@@ -334,7 +334,8 @@ class Scenario:
         Returns names with rings of points (N, 2) [m, world].
         """
         return [(name, [np.asarray(ring) for ring in rings])
-                for name, rings in self._loaded.outlines(low_m, high_m)]
+                for name, rings in self._loaded.outlines(number("outlines: low_m", low_m),
+                                                         number("outlines: high_m", high_m))]
 
     def run(self, seed: int | None = None, *, method: _core.Method | str | None = None,
             locate: bool = True, outlets: Iterable[Outlet | Callable] = (), threads: int | None = None,
