@@ -66,7 +66,7 @@ std::optional<PolarizationAllowance> allowance_of(const LocalizationProblem& pro
     allowance.added = added_by_any_wire(reads, estimate.candidates.front().p_WT);
     return allowance;
   }
-  allowance.added = added_by_wire(*best);
+  allowance.added = added_by_wire(reads.height, *best);
   allowance.samples = turned_back(problem, problem.samples.at(estimate.tag),
                                   to_position(reads.height, fit.place), fit.axis_W);
   return allowance;

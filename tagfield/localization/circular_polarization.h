@@ -23,9 +23,9 @@ double polarization_turn(Hand hand, const Eigen::Matrix3d& R_WA, const Eigen::Ve
 struct PolarizationAllowance {
   /// With the phase rotations removed, where they are known.
   std::optional<SamplesOfTag> samples{};
-  /// Additional covariance of the position in x and y [m²], from the uncertainty of the wire's
-  /// direction and from other directions that fit nearly as well.
-  Eigen::Matrix2d added = Eigen::Matrix2d::Zero();
+  /// Additional covariance of the position [m²], from the uncertainty of the wire's direction and
+  /// from other directions that fit nearly as well. Vertical entries are 0 if the height is known.
+  Eigen::Matrix3d added = Eigen::Matrix3d::Zero();
 };
 
 /// Allowances by tag.

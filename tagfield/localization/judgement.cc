@@ -101,9 +101,15 @@ TagEstimate not_located(TagEstimate estimate, const std::string& why) {
 }
 
 void add_error(const Eigen::Matrix2d& covariance, Candidate& candidate) {
-  if (candidate.covariance) candidate.covariance->topLeftCorner<2, 2>() += covariance;
+  Eigen::Matrix3d horizontal = Eigen::Matrix3d::Zero();
+  horizontal.topLeftCorner<2, 2>() = covariance;
+  add_error(horizontal, candidate);
+}
+
+void add_error(const Eigen::Matrix3d& covariance, Candidate& candidate) {
+  if (candidate.covariance) *candidate.covariance += covariance;
   candidate.expected_error_m =
-      std::hypot(candidate.expected_error_m, std::sqrt(covariance.trace()));
+      std::hypot(candidate.expected_error_m, std::sqrt(covariance.topLeftCorner<2, 2>().trace()));
 }
 
 void judge(const EstimateLimits& limits, TagEstimate& estimate) {

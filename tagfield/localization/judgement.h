@@ -49,8 +49,9 @@ TagEstimate begun(const std::string& tag, const SamplesOfTag& samples);
 TagEstimate not_located(TagEstimate estimate, const std::string& why);
 
 /// Adds a position error that the candidate's covariance does not include, with this covariance in
-/// x and y [m²].
+/// x and y, or in all three directions [m²]. The expected error is a horizontal one.
 void add_error(const Eigen::Matrix2d& covariance, Candidate& candidate);
+void add_error(const Eigen::Matrix3d& covariance, Candidate& candidate);
 
 /// Sets verdict and reason from the candidates, best first; there must be at least one.
 void judge(const EstimateLimits& limits, TagEstimate& estimate);

@@ -27,6 +27,8 @@ using Normal = Eigen::Matrix<double, 5, 5>;
 constexpr std::size_t kAxes = 16;
 /// A fit further away is a different position [m].
 constexpr double kNearPlace = 0.5;
+/// If no fit near a position is clean, others start this far to all sides of it [m].
+constexpr double kBeside = 0.2;
 constexpr std::size_t kEnoughReads = 300;
 
 /// Largest ratio of misfit to noise: as for the choice of a method (docs/estimators.md).
@@ -162,26 +164,38 @@ Vector3d axis_number(std::size_t i) {
   return {radius * std::cos(around), radius * std::sin(around), z};
 }
 
+/// Adds the fits started from there that end near `found`; all are sorted, best first.
+void add_fits(const PolarizedReads& reads, const PositionVector& found, const PositionVector& start,
+              std::vector<WirePoint>& fits) {
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    WirePoint fit = fitted(reads, start, axis_number(i));
+    if ((fit.place - found).head<2>().norm() < kNearPlace) fits.push_back(std::move(fit));
+  }
+  std::stable_sort(fits.begin(), fits.end(),
+                   [](const auto& a, const auto& b) { return a.cost < b.cost; });
+}
+
 /// Increase of the covariance because the wire's direction is unknown. A direction that the phases
 /// do not constrain has a prior of about a radian.
-Eigen::Matrix2d added_by_direction(const WirePoint& fit, double noise_m2) {
+Matrix3d added_by_direction(const HeightModel& height, const WirePoint& fit, double noise_m2) {
   Normal normal = fit.normal / noise_m2;
   if (!(normal(2, 2) > 0.0)) normal(2, 2) = 1.0;
   const Matrix3d alone = invert_symmetric(Matrix3d(normal.topLeftCorner<3, 3>()));
   normal.bottomRightCorner<2, 2>() += Eigen::Matrix2d::Identity();
   const Normal both = invert_symmetric(normal);
-  const Eigen::Matrix2d more = (both.topLeftCorner<2, 2>() - alone.topLeftCorner<2, 2>()).eval();
-  return more.allFinite() ? more : Eigen::Matrix2d::Zero();
+  const Matrix3d J = place_jacobian(height, fit.place, both(2, 2));
+  const Matrix3d more = J * (both.topLeftCorner<3, 3>() - alone) * J.transpose();
+  return more.allFinite() ? more : Matrix3d::Zero();
 }
 
 /// Mean square shift due to other fits that are nearly as good, weighted by likelihood.
-Eigen::Matrix2d added_by_others(const WireFits& all) {
+Matrix3d added_by_others(const HeightModel& height, const WireFits& all) {
   const WirePoint& best = all.fits.front();
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  Matrix3d squares = Matrix3d::Zero();
   double weights = 0.0;
   for (const WirePoint& fit : all.fits) {
     const double weight = std::exp(-0.5 * (fit.cost - best.cost) / all.noise_m2);
-    const Eigen::Vector2d apart = (fit.place - best.place).head<2>();
+    const Vector3d apart = to_position(height, fit.place) - to_position(height, best.place);
     weights += weight;
     squares += weight * apart * apart.transpose();
   }
@@ -227,13 +241,14 @@ PolarizedReads polarized_reads(const LocalizationProblem& problem, const std::st
 
 WireFits fit_wire(const PolarizedReads& reads, const Vector3d& p_WT) {
   WireFits all;
-  const PositionVector start = to_unknowns(reads.height, p_WT);
-  for (std::size_t i = 0; i < kAxes; ++i) {
-    WirePoint fit = fitted(reads, start, axis_number(i));
-    if ((fit.place - start).head<2>().norm() < kNearPlace) all.fits.push_back(std::move(fit));
+  const PositionVector found = to_unknowns(reads.height, p_WT);
+  add_fits(reads, found, found, all.fits);
+  // Together with an estimated height, a wire seen almost end-on shifts positions by decimetres.
+  if (reads.height.unknowns() == 3 && (all.fits.empty() || !is_clean(reads, all.fits.front()))) {
+    for (const auto& [x, y] : {std::pair(1.0, 0.0), {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}) {
+      add_fits(reads, found, found + kBeside * PositionVector(x, y, 0.0), all.fits);
+    }
   }
-  std::stable_sort(all.fits.begin(), all.fits.end(),
-                   [](const auto& a, const auto& b) { return a.cost < b.cost; });
   if (all.fits.empty()) return all;
   const Eigen::ArrayXd& errors = all.fits.front().errors;
   all.noise_m2 = residual_variance(reads.phases.spans, errors) *
@@ -249,8 +264,8 @@ bool is_clean(const PolarizedReads& reads, const WirePoint& fit) {
          std::sqrt(left_rad.square().mean()) < kMaxLeft * noise_of_differences(differences);
 }
 
-Eigen::Matrix2d added_by_any_wire(const PolarizedReads& reads, const Vector3d& p_WT) {
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+Matrix3d added_by_any_wire(const PolarizedReads& reads, const Vector3d& p_WT) {
+  Matrix3d squares = Matrix3d::Zero();
   PolarizedReads straight = reads;
   std::fill(straight.hand.begin(), straight.hand.end(), 0.0);
   for (std::size_t i = 0; i < kAxes; ++i) {
@@ -261,15 +276,17 @@ Eigen::Matrix2d added_by_any_wire(const PolarizedReads& reads, const Vector3d& p
     WirePoint without = with;
     linearize(straight, without);
     const Matrix3d normal = with.normal.topLeftCorner<3, 3>();
-    const Vector3d apart = solve_symmetric(damped(normal, 1e-6, 1e-9),
-                                           Vector3d((with.gradient - without.gradient).head<3>()));
-    squares += apart.head<2>() * apart.head<2>().transpose() / static_cast<double>(kAxes);
+    const PositionVector shift = solve_symmetric(
+        damped(normal, 1e-6, 1e-9), Vector3d((with.gradient - without.gradient).head<3>()));
+    const Vector3d apart =
+        to_position(reads.height, with.place + shift) - to_position(reads.height, with.place);
+    squares += apart * apart.transpose() / static_cast<double>(kAxes);
   }
-  return squares.allFinite() ? squares : Eigen::Matrix2d::Zero();
+  return squares.allFinite() ? squares : Matrix3d::Zero();
 }
 
-Eigen::Matrix2d added_by_wire(const WireFits& all) {
-  return added_by_direction(all.fits.front(), all.noise_m2) + added_by_others(all);
+Matrix3d added_by_wire(const HeightModel& height, const WireFits& all) {
+  return added_by_direction(height, all.fits.front(), all.noise_m2) + added_by_others(height, all);
 }
 
 }  // namespace tagfield

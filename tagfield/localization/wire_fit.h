@@ -65,7 +65,8 @@ struct WireFits {
   double noise_m2 = 0.0;        ///< Noise variance of an independent read.
 };
 
-/// Least squares started from the position, with wire directions all around.
+/// Least squares started from the position, with wire directions all around; and from beside it if
+/// the height is estimated and none of these is clean.
 WireFits fit_wire(const PolarizedReads& reads, const Eigen::Vector3d& p_WT);
 
 /// Whether the fit leaves nothing but noise, and little of it. Reflections and pose errors bias
@@ -73,12 +74,12 @@ WireFits fit_wire(const PolarizedReads& reads, const Eigen::Vector3d& p_WT);
 /// don't suffice, because the effect of distant reflectors changes from read to read.
 bool is_clean(const PolarizedReads& reads, const WirePoint& fit);
 
-/// Mean square shift of the position in x and y [m²] due to a wire of unknown direction, over
-/// equally likely directions all around.
-Eigen::Matrix2d added_by_any_wire(const PolarizedReads& reads, const Eigen::Vector3d& p_WT);
+/// Mean square shift of the position [m²] due to a wire of unknown direction, over equally likely
+/// directions all around. Vertical entries are 0 if the height is known.
+Eigen::Matrix3d added_by_any_wire(const PolarizedReads& reads, const Eigen::Vector3d& p_WT);
 
-/// Increase of the covariance of x and y [m²] due to the unknown direction of the wire, and to
-/// other fits that are nearly as good.
-Eigen::Matrix2d added_by_wire(const WireFits& all);
+/// Increase of the position's covariance [m²] due to the unknown direction of the wire, and to
+/// other fits that are nearly as good. Vertical entries are 0 if the height is known.
+Eigen::Matrix3d added_by_wire(const HeightModel& height, const WireFits& all);
 
 }  // namespace tagfield

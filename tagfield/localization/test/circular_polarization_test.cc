@@ -75,19 +75,25 @@ TEST(CircularPolarization, DoesNotTurnWhereAnUprightTagIsAsHigh) {
 /// Results for tags with wires in random directions.
 struct WireStudy {
   Tally tally;
-  double squares = 0.0;  ///< NEES in x and y.
+  double squares = 0.0;   ///< NEES in x and y.
+  double vertical = 0.0;  ///< NEES in z.
 };
 
-WireStudy study(bool is_known) {
+/// Tags from `lowest_m` on; the antenna is at 0.4 m.
+WireStudy study(bool is_known, bool height_known, double lowest_m) {
   constexpr int kTags = 60;
   Rng rng(11);
   WireStudy all;
   const Path path = aisles(0.02);
   for (int i = 0; i < kTags; ++i) {
     const double away = uniform(rng, 1.0, 3.0);
-    const double height = uniform(rng, 0.4, 1.6);
+    const double height = uniform(rng, lowest_m, 1.6);
     const WiredTag tag{beside(path, away, height, rng), any_direction(rng)};
     LocalizationProblem problem = problem_of(tag, rng);
+    if (!height_known) {
+      problem.heights = {};
+      problem.heights.estimated = HeightSide::kAbove;
+    }
     if (is_known) problem.circular["a"] = Hand::kRight;
     Diagnostics diagnostics;
     const TagEstimate estimate =
@@ -98,13 +104,15 @@ WireStudy study(bool is_known) {
     const Eigen::Vector2d off = (best.p_WT - tag.p_WT).head<2>();
     const Eigen::Matrix2d covariance = best.covariance->topLeftCorner<2, 2>();
     all.squares += off.dot(covariance.inverse() * off);
+    const double up = best.p_WT.z() - tag.p_WT.z();
+    if (!height_known) all.vertical += up * up / (*best.covariance)(2, 2);
   }
   all.tally.finish();
   return all;
 }
 
 TEST(CircularPolarization, WireIsFittedWithThePlaceAndItsErrorIsStated) {
-  const WireStudy known = study(true);
+  const WireStudy known = study(true, true, 0.4);
   const std::size_t located = known.tally.errors.size();
   // Some wires are seen end-on, where the rotation varies steeply, and can't be estimated.
   EXPECT_GE(located, 45U);
@@ -114,8 +122,18 @@ TEST(CircularPolarization, WireIsFittedWithThePlaceAndItsErrorIsStated) {
   EXPECT_LT(known.squares / (2.0 * static_cast<double>(located)), 1.5);
   EXPECT_GT(known.squares / (2.0 * static_cast<double>(located)), 0.5);
   // If the phase rotations are taken for distance, positions are wrong.
-  const WireStudy unknown = study(false);
+  const WireStudy unknown = study(false, true, 0.4);
   EXPECT_LT(5.0 * known.tally.part(0.5), unknown.tally.part(0.5));
+}
+
+/// Tags up to nearly the antenna's height, where a small error of (z − z_a)² is a large one of z.
+TEST(CircularPolarization, EstimatedHeightsIncludeTheWire) {
+  const WireStudy known = study(true, false, 0.45);
+  const auto located = static_cast<double>(known.tally.errors.size());
+  EXPECT_GE(located, 45.0);
+  // χ² with 1 degree of freedom each: 99.9 % of means over 45 are below 1.8.
+  EXPECT_LT(known.vertical / located, 1.8);
+  EXPECT_LT(known.squares / (2.0 * located), 1.5);
 }
 
 LocalizationResult claimed_at(const Vector3d& p_WT) {

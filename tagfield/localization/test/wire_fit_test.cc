@@ -23,6 +23,8 @@ Matrix5d random_normal(double turning, std::mt19937& random) {
   return gradients.transpose() * gradients;
 }
 
+constexpr HeightModel kFree{HeightModel::Kind::kFree, 0.0, 1.0};
+
 TEST(WireFit, AnUnknownDirectionAddsWhatItsPriorLeaves) {
   std::mt19937 random(5);
   constexpr double kNoise_m2 = 0.25;
@@ -36,14 +38,15 @@ TEST(WireFit, AnUnknownDirectionAddsWhatItsPriorLeaves) {
       Matrix5d with_prior = information;
       with_prior(3, 3) += 1.0;
       with_prior(4, 4) += 1.0;
-      const Eigen::Matrix2d expected =
-          with_prior.fullPivLu().inverse().topLeftCorner<2, 2>() -
-          information.topLeftCorner<3, 3>().eval().fullPivLu().inverse().topLeftCorner<2, 2>();
-      const Eigen::Matrix2d added = added_by_wire(all);
+      const Eigen::Matrix3d expected =
+          with_prior.fullPivLu().inverse().topLeftCorner<3, 3>() -
+          information.topLeftCorner<3, 3>().eval().fullPivLu().inverse();
+      const Eigen::Matrix3d added = added_by_wire(kFree, all);
       EXPECT_LT((added - expected).norm(), 1e-9 * (1.0 + expected.norm())) << turning;
       // Not to know something never makes a position more certain.
       EXPECT_GE(added(0, 0), -1e-12);
-      EXPECT_GE(added.determinant(), -1e-15);
+      EXPECT_GE(added(2, 2), -1e-12);
+      EXPECT_GE((added.topLeftCorner<2, 2>().determinant()), -1e-15);
     }
   }
 }
@@ -54,16 +57,36 @@ TEST(WireFit, OtherFitsAddTheirDistanceByTheirLikelihood) {
   all.noise_m2 = 1e-4;
   all.fits.resize(2);
   for (WirePoint& fit : all.fits) fit.normal = 1e-4 * random_normal(1.0, random);
-  const Eigen::Matrix2d alone = added_by_wire({{all.fits[0]}, all.noise_m2});
-  all.fits[1].place.head<2>() = Eigen::Vector2d(0.03, -0.04);
+  const Eigen::Matrix3d alone = added_by_wire(kFree, {{all.fits[0]}, all.noise_m2});
+  const Eigen::Vector3d apart(0.03, -0.04, 0.06);
+  all.fits[1].place = apart;
   all.fits[0].cost = 2e-3;
   for (const double more : {0.0, 2e-4, 1.0}) {
     all.fits[1].cost = all.fits[0].cost + more;
     const double weight = std::exp(-0.5 * more / all.noise_m2);
-    const Eigen::Vector2d apart(0.03, -0.04);
-    const Eigen::Matrix2d expected = weight / (1.0 + weight) * apart * apart.transpose();
-    EXPECT_LT((added_by_wire(all) - alone - expected).norm(), 1e-12) << more;
+    const Eigen::Matrix3d expected = weight / (1.0 + weight) * apart * apart.transpose();
+    EXPECT_LT((added_by_wire(kFree, all) - alone - expected).norm(), 1e-12) << more;
   }
+}
+
+/// From a level path only q = (z − z_a)² is estimated: dz = dq / 2|z − z_a|.
+TEST(WireFit, HeightsGrowByTheSquareOfWhatIsEstimated) {
+  std::mt19937 random(7);
+  const HeightModel level{HeightModel::Kind::kLevel, 1.0, 1.0};
+  const HeightModel known{HeightModel::Kind::kKnown, 1.0, 1.0};
+  WireFits all;
+  all.noise_m2 = 1e-4;
+  all.fits.resize(1);
+  all.fits[0].normal = 1e-4 * random_normal(1.0, random);
+  all.fits[0].place = {3.0, 2.0, 0.36};
+  const Eigen::Matrix3d by_q = added_by_wire(kFree, all);
+  const Eigen::Matrix3d by_height = added_by_wire(level, all);
+  EXPECT_NEAR(by_height(2, 2), by_q(2, 2) / (4.0 * 0.36), 1e-12);
+  EXPECT_NEAR(by_height(0, 2), by_q(0, 2) / (2.0 * 0.6), 1e-12);
+  EXPECT_EQ(added_by_wire(known, all).row(2).norm(), 0.0);
+  all.fits.push_back(all.fits[0]);
+  all.fits[1].place.z() = 0.49;
+  EXPECT_NEAR(added_by_wire(level, all)(2, 2) - by_height(2, 2), 0.5 * 0.1 * 0.1, 1e-12);
 }
 
 }  // namespace
