@@ -5,34 +5,20 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <map>
 #include <set>
-#include <unordered_map>
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/parallel.h"
+#include "tagfield/field/internal/air_antenna.h"
 #include "tagfield/field/radio_port.h"
 
 namespace tagfield {
 namespace {
 
-/// Relative position of `time` between `before` (0) and `now` (1). Slots that began just before
-/// `before` are slightly below 0.
-double share_at(Time time, Time before, Time now) {
-  if (now <= before) return 1.0;
-  return static_cast<double>((time - before).count()) / static_cast<double>((now - before).count());
-}
-
 double reach(const RadioModel& model, const TagPopulation& tags) {
   double max_m = 0.0;
   for (const auto& kind : tags.models()) max_m = std::max(max_m, max_range_m(model, *kind));
   return max_m;
-}
-
-/// The position of a tag that didn't exist.
-Eigen::Vector3d nowhere() {
-  return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Enough for the images of several thousand tags in a hall at order 2.
@@ -48,85 +34,6 @@ constexpr std::size_t kMinTracedTags = 48;
 constexpr std::size_t kMinStraightTags = 512;
 
 bool takes_inventory(const RadioModel& model) { return model.gen2 && model.effects.inventory; }
-
-}  // namespace
-
-/// The state of an antenna between updates.
-struct AirAntenna {
-  /// A tag that was read since the last update, with its pose at the time.
-  struct Pending {
-    std::uint32_t slot;
-    Time stamp;
-    RigidTransform X_WT;
-  };
-  /// Results since antenna and tags came to rest: as long as neither moves and there are no bodies
-  /// or other readers, links depend only on the carrier.
-  struct AtRest {
-    RigidTransform X_WA;
-    std::uint64_t tags = 0;                           ///< TagPopulation::version().
-    bool is_known = false;                            ///< For the last update.
-    std::map<double, std::vector<TagOnAir>> powered;  ///< By carrier.
-    std::map<double, std::unordered_map<std::uint32_t, RadioLink>> read;  ///< By carrier and slot.
-  };
-  AntennaParameters parameters;
-  RadioPort port;
-  std::unique_ptr<Inventory> inventory;
-  std::optional<Time> updated;  ///< Last update,
-  RigidTransform X_WA;          ///< and the pose at that time.
-  std::vector<Pending> pending;
-  bool is_over = false;                    ///< It never updates again.
-  std::shared_ptr<const ImageSet> images;  ///< Last computed; kept while at rest.
-  std::shared_ptr<const ImageSet> receiver_images;
-  std::vector<PathCache> memories;  ///< By slot, for those in range; empty in empty space.
-  std::vector<PathCache> receiver_memories;
-  std::optional<RigidTransform> X_WA_sending;  ///< For other antennas; unset at first.
-  double interference_mw = 0.0;                ///< In its tags' replies, since the last update.
-  AtRest at_rest;
-
-  [[nodiscard]] const RadioModel& model() const { return *physical(parameters); }
-  [[nodiscard]] RigidTransform pose_at(Time stamp, const RigidTransform& X_WA_now, Time now) const {
-    if (!updated) return X_WA_now;
-    return interpolate(X_WA, X_WA_now, share_at(stamp, *updated, now));
-  }
-  [[nodiscard]] Eigen::Vector3d velocity(const RigidTransform& X_WA_now, Time now) const {
-    if (!updated || now <= *updated) return Eigen::Vector3d::Zero();
-    return (X_WA_now.translation - X_WA.translation) / to_seconds(now - *updated);
-  }
-};
-
-namespace {
-
-RadioView bare_view_of(const AirAntenna& antenna, const RadioWorld& world,
-                       const RigidTransform& X_WA, double frequency_hz) {
-  return bare_view(antenna.model(), world, X_WA, frequency_hz, antenna.port.antenna_key,
-                   antenna.port.seed);
-}
-
-/// `kept` if it is for this position, otherwise recomputed.
-std::shared_ptr<const ImageSet> images_at(const RigidTransform& X, const RadioView& view,
-                                          std::shared_ptr<const ImageSet>& kept) {
-  if (!kept || kept->p_WA != X.translation) {
-    kept =
-        std::make_shared<const ImageSet>(images_of(view.world.scene, X.translation, view.tracing));
-  }
-  return kept;
-}
-
-void add_images(AirAntenna& antenna, RadioView& view) {
-  view.images = images_at(view.X_WA, view, antenna.images);
-  if (view.model.X_AR) view.receiver_images = images_at(view.X_WR, view, antenna.receiver_images);
-}
-
-/// Ensures a cache for each of the slots if paths are traced.
-void make_room(const std::vector<std::uint32_t>& slots, const RadioView& view,
-               AirAntenna& antenna) {
-  if (slots.empty() || (!view.tracing.occlusion && view.tracing.order == 0)) return;
-  const std::size_t count = std::size_t{*std::max_element(slots.begin(), slots.end())} + 1;
-  if (antenna.memories.size() < count) antenna.memories.resize(count);
-  if (view.model.X_AR && antenna.receiver_memories.size() < count) {
-    antenna.receiver_memories.resize(count);
-  }
-}
 
 /// Calls `visit(slot, tag, link)` for each tag in the slots, in empty space.
 template <class Visit>
@@ -145,17 +52,6 @@ void for_each_straight_link(const std::vector<std::uint32_t>& slots, const TagPo
       visit(now[i], TagEnd{tags.model(now[i]), tags.pose(now[i]), tags.key(now[i])}, links[i]);
     }
   }
-}
-
-/// Whether the antenna transmits before its next update.
-bool has_turn_soon(const AirAntenna& antenna, const std::vector<PortCycle>& cycles, Time now) {
-  // One and a half intervals, because updates of a recording are irregular.
-  const Duration interval = duration_from_seconds(1.5 / antenna.parameters.rate_hz);
-  const std::string& name = antenna.parameters.name;
-  return std::any_of(cycles.begin(), cycles.end(), [&](const PortCycle& cycle) {
-    const auto turn = next_turn(cycle, name, now);
-    return turn && *turn <= now + interval;
-  });
 }
 
 }  // namespace
@@ -182,30 +78,10 @@ void RadioAir::set_world(std::shared_ptr<const RadioWorld> world) {
   }
 }
 
-void RadioAir::see(const std::vector<MovingBody>& bodies, Time now) {
-  if (bodies.empty() && bodies_.empty()) return;
-  if (now != bodies_seen_) {
-    bodies_before_ = std::move(bodies_);
-    bodies_seen_before_ = bodies_seen_;
-  }
-  bodies_ = bodies;
-  bodies_seen_ = now;
-}
+void RadioAir::see(const std::vector<MovingBody>& bodies, Time now) { bodies_.see(bodies, now); }
 
 std::vector<MovingBody> RadioAir::bodies_at(const RadioModel& model, Time stamp) const {
-  if (!model.effects.bodies || bodies_.empty() || stamp >= bodies_seen_) {
-    return model.effects.bodies ? bodies_ : std::vector<MovingBody>{};
-  }
-  std::vector<MovingBody> then = bodies_;
-  const double share = share_at(stamp, bodies_seen_before_, bodies_seen_);
-  for (MovingBody& body : then) {
-    const auto before =
-        std::find_if(bodies_before_.begin(), bodies_before_.end(),
-                     [&](const MovingBody& other) { return other.name == body.name; });
-    if (before == bodies_before_.end()) continue;
-    body.p_W = (1.0 - share) * before->p_W + share * body.p_W;
-  }
-  return then;
+  return model.effects.bodies ? bodies_.at(stamp) : std::vector<MovingBody>{};
 }
 
 AirAntenna& RadioAir::antenna_named(const std::string& name) {
@@ -234,7 +110,7 @@ void RadioAir::remove(const std::string& name) {
     return antenna->parameters.name == name;
   });
   if (found == antennas_.end()) return;
-  if ((*found)->inventory && (*found)->inventory->on()) (*found)->inventory->stop(*ran_to_);
+  if ((*found)->inventory && (*found)->inventory->on()) (*found)->inventory->stop(*motion_.seen());
   antennas_.erase(found);
   plan_turns();
 }
@@ -262,9 +138,7 @@ void RadioAir::forget_tag(std::uint32_t slot) {
   }
   memories_->forget(slot);
   tag_images_.forget(slot);
-  for (auto* places : {&places_, &places_before_}) {
-    if (slot < places->size()) (*places)[slot] = nowhere();
-  }
+  motion_.forget(slot);
 }
 
 void RadioAir::expect_no_more_of(const std::string& name) { antenna_named(name).is_over = true; }
@@ -301,9 +175,10 @@ void RadioAir::update(const std::string& name, const RigidTransform& X_WA, Time 
   if (!is_finite(X_WA)) return;
   antenna.X_WA_sending = X_WA;
   couplings_seen_ = false;
-  if (!ran_to_ || now > *ran_to_) {
-    remember_places(now, tags);
-    run_inventories(now, tags);
+  const Time seen = motion_.seen().value_or(now);
+  if (!motion_.seen() || now > seen) {
+    motion_.see(tags, now);
+    run_inventories(seen, now, tags);
   }
   if (antenna.inventory) {
     read_pending(antenna, X_WA, now, tags, replies);
@@ -315,35 +190,7 @@ void RadioAir::update(const std::string& name, const RigidTransform& X_WA, Time 
   antenna.X_WA = X_WA;
 }
 
-void RadioAir::remember_places(Time now, const TagPopulation& tags) {
-  before_ = ran_to_.value_or(now);
-  places_before_.swap(places_);
-  places_.clear();
-  tags.for_each([&](std::uint32_t slot) {
-    if (slot >= places_.size()) places_.resize(slot + std::size_t{1}, nowhere());
-    places_[slot] = tags.position(slot);
-  });
-}
-
-RigidTransform RadioAir::tag_pose(std::uint32_t slot, Time stamp, const TagPopulation& tags) const {
-  RigidTransform X_WT = tags.pose(slot);
-  if (slot >= places_before_.size() || !places_before_[slot].allFinite()) return X_WT;
-  // Exactly, without rounding errors, so that images of tags at rest are kept.
-  if (places_before_[slot] == X_WT.translation) return X_WT;
-  const double share = share_at(stamp, before_, *ran_to_);
-  X_WT.translation = (1.0 - share) * places_before_[slot] + share * X_WT.translation;
-  return X_WT;
-}
-
-Eigen::Vector3d RadioAir::tag_velocity(std::uint32_t slot) const {
-  const bool is_known = slot < places_before_.size() && places_before_[slot].allFinite();
-  if (!is_known || *ran_to_ <= before_) return Eigen::Vector3d::Zero();
-  return (places_[slot] - places_before_[slot]) / to_seconds(*ran_to_ - before_);
-}
-
-void RadioAir::run_inventories(Time now, const TagPopulation& tags) {
-  Time begin = ran_to_.value_or(now);
-  ran_to_ = now;
+void RadioAir::run_inventories(Time begin, Time now, const TagPopulation& tags) {
   while (begin < now) {
     Time end = next_change(cycles_, begin).value_or(now);
     if (cycles_.size() > 1) end = std::min(end, begin + kReadersSideBySide);
@@ -368,7 +215,7 @@ void RadioAir::run_piece(Time begin, Time end, const TagPopulation& tags) {
     read_.clear();
     antenna->inventory->run_until(end, read_);
     for (const Singulation& read : read_) {
-      antenna->pending.push_back({read.tag, read.stamp, tag_pose(read.tag, read.stamp, tags)});
+      antenna->pending.push_back({read.tag, read.stamp, motion_.pose(read.tag, read.stamp, tags)});
     }
   }
 }
@@ -422,7 +269,7 @@ void RadioAir::read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Tim
     }
     const TagEnd tag{tags.model(read.slot), read.X_WT, tags.key(read.slot)};
     replies.push_back(report(antenna.model(), antenna.port, carrier, link, tag,
-                             velocity - tag_velocity(read.slot), read.stamp,
+                             velocity - motion_.velocity(read.slot), read.stamp,
                              antenna.interference_mw));
     replies.back().slot = read.slot;
     replies.back().distance_m = (read.X_WT.translation - X_WA_then.translation).norm();
@@ -451,7 +298,7 @@ TagEnd RadioAir::tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopul
   TagEnd tag{tags.model(slot), tags.pose(slot), tags.key(slot)};
   if (tags.size() <= kMaxTagsWithImages) tag.images = tag_images(view, slot, tag.X_WT);
   if (tag.images == nullptr && !view.images) add_images(antenna, view);
-  surround(tag, slot, *ran_to_, tags, antenna, view, around);
+  surround(tag, slot, *motion_.seen(), tags, antenna, view, around);
   if (slot < antenna.memories.size()) tag.memory = &antenna.memories[slot];
   if (slot < antenna.receiver_memories.size()) {
     tag.receiver_memory = &antenna.receiver_memories[slot];
@@ -472,7 +319,7 @@ void RadioAir::surround(TagEnd& tag, std::uint32_t slot, Time stamp, const TagPo
   around.neighbours.clear();
   for (const auto& [other, share] : coupled.neighbours) {
     around.neighbours.push_back(
-        {&tags.model(other), tag_pose(other, stamp, tags), tags.key(other), share});
+        {&tags.model(other), motion_.pose(other, stamp, tags), tags.key(other), share});
   }
   tag.around = &around;
   if (!view.images) add_images(antenna, view);
@@ -569,7 +416,7 @@ void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time no
     const Disturbance disturbance = disturbance_of(antenna, others, tag);
     if (!is_read(antenna.model(), link, tag, disturbance)) return;
     replies.push_back(report(antenna.model(), antenna.port, carrier, link, tag,
-                             velocity - tag_velocity(slot), now, disturbance.in_replies_mw));
+                             velocity - motion_.velocity(slot), now, disturbance.in_replies_mw));
     replies.back().slot = slot;
     replies.back().distance_m = (tag.X_WT.translation - X_WA.translation).norm();
   };

@@ -11,11 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "tagfield/field/body_motion.h"
 #include "tagfield/field/image_cache.h"
 #include "tagfield/field/port_turns.h"
 #include "tagfield/field/radio_link.h"
 #include "tagfield/field/reader_interference.h"
 #include "tagfield/field/tag_coupling.h"
+#include "tagfield/field/tag_motion.h"
 #include "tagfield/field/tag_population.h"
 #include "tagfield/gen2/inventory.h"
 #include "tagfield/gen2/tag_memories.h"
@@ -75,12 +77,8 @@ class RadioAir {
  private:
   AirAntenna& antenna_named(const std::string& name);
   void plan_turns();
-  void run_inventories(Time now, const TagPopulation& tags);
+  void run_inventories(Time begin, Time now, const TagPopulation& tags);
   void run_piece(Time begin, Time end, const TagPopulation& tags);
-  void remember_places(Time now, const TagPopulation& tags);
-  [[nodiscard]] RigidTransform tag_pose(std::uint32_t slot, Time stamp,
-                                        const TagPopulation& tags) const;
-  [[nodiscard]] Eigen::Vector3d tag_velocity(std::uint32_t slot) const;
   bool sees_the_same(AirAntenna& antenna, const RigidTransform& X_WA, const TagPopulation& tags);
   RadioLink link_of_read(AirAntenna& antenna, const RigidTransform& X_WA,
                          const RigidTransform& X_WT, std::uint32_t slot, Time stamp,
@@ -113,15 +111,8 @@ class RadioAir {
   std::unique_ptr<TagMemories> memories_;              ///< Inventories keep pointers to it.
   std::vector<std::unique_ptr<AirAntenna>> antennas_;  ///< In the order in which they were added.
   std::vector<PortCycle> cycles_;
-  Time before_{};                               ///< Time of the last updates but one,
-  std::optional<Time> ran_to_;                  ///< and of the last; inventories have run up to it.
-  std::vector<Eigen::Vector3d> places_before_;  ///< By slot; NaN if unknown.
-  std::vector<Eigen::Vector3d> places_;
-  /// The moving bodies at the last two times.
-  std::vector<MovingBody> bodies_before_;
-  std::vector<MovingBody> bodies_;
-  Time bodies_seen_before_{};
-  Time bodies_seen_{};
+  TagMotion motion_;  ///< Of the tags up to the last update; inventories have run up to it.
+  BodyMotion bodies_;
   ImageCache tag_images_;
   TagCouplings couplings_;        ///< Of the tags at the last update, if an antenna needs them.
   bool couplings_seen_ = false;   ///< Already updated for this update.
