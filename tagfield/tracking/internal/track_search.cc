@@ -34,9 +34,12 @@ constexpr double kHopelessNoise = 10.0;
 constexpr double kLost = 3.0;  ///< Particles further from the Kalman filter's track have lost it.
 constexpr double kIndependent = 1.5;  ///< Correlation factor up to which residuals are noise.
 
+enum class Direction { kForwards, kBackwards };
+
 struct Explanation {
   Track track;
-  LineHypothesis from;  ///< Where smoothing started.
+  LineHypothesis from;                         ///< Where smoothing started,
+  Direction direction = Direction::kForwards;  ///< and from which end of the pass.
 };
 
 /// Tracks with the same acceleration noise.
@@ -55,6 +58,46 @@ Track smoothed(const Pass& pass, const TrackingOptions& options, const LineHypot
       start);
 }
 
+/// The same reads with time running backwards.
+Pass reversed(Pass pass) {
+  std::reverse(pass.reads.begin(), pass.reads.end());
+  for (PassRead& read : pass.reads) {
+    read.t_s = -read.t_s;
+    read.v_WA = -read.v_WA;
+  }
+  return pass;
+}
+
+/// Covariance of (p, −v) from that of (p, v).
+Matrix6d with_reversed_velocity(Matrix6d covariance) {
+  covariance.topRightCorner<3, 3>() *= -1.0;
+  covariance.bottomLeftCorner<3, 3>() *= -1.0;
+  return covariance;
+}
+
+/// Where a tag stops or turns, the whole turns of its phases are decided by what was known before.
+/// From the end of the pass on, other things are: a track that depends on the direction is not the
+/// only one. There must be no lane, as it has a direction, too.
+Track smoothed_backwards(const Pass& pass, const TrackingOptions& options,
+                         LineHypothesis hypothesis) {
+  hypothesis.fit.motion.v_WT *= -1.0;
+  hypothesis.fit.covariance = with_reversed_velocity(hypothesis.fit.covariance);
+  Track track = smoothed(reversed(pass), options, hypothesis);
+  std::reverse(track.points.begin(), track.points.end());
+  for (TrackPoint& point : track.points) {
+    point.v_WT *= -1.0;
+    point.covariance = with_reversed_velocity(point.covariance);
+  }
+  track.expected_error_m = expected_error(pass, track);
+  return track;
+}
+
+Track smoothed_in(Direction direction, const Pass& pass, const TrackingOptions& options,
+                  const LineHypothesis& hypothesis) {
+  return direction == Direction::kForwards ? smoothed(pass, options, hypothesis)
+                                           : smoothed_backwards(pass, options, hypothesis);
+}
+
 /// Particles that have lost a tag may all agree: where their track is over three standard
 /// deviations from that of the Kalman filter, its covariance and their difference are added.
 void allow_for_lost_particles(const Pass& pass, const Track& by_filter, Track& track) {
@@ -71,7 +114,7 @@ void allow_for_lost_particles(const Pass& pass, const Track& by_filter, Track& t
   track.expected_error_m = expected_error(pass, track);
 }
 
-Track by_particles(const Pass& pass, const TrackingOptions& options,
+Track by_particles(Direction /*always forwards*/, const Pass& pass, const TrackingOptions& options,
                    const LineHypothesis& hypothesis) {
   const Track by_filter = smoothed(pass, options, hypothesis);
   // With the process noise of the whole pass, too few particles would be where they matter.
@@ -128,23 +171,27 @@ std::vector<Explanation> rivals(std::vector<Explanation> explanations) {
 template <typename Smooth>
 std::vector<Explanation> explanations_of(const Pass& pass, const TrackingOptions& options,
                                          const std::vector<LineHypothesis>& hypotheses,
+                                         const std::vector<Direction>& directions,
                                          const Smooth& smooth_one) {
   std::vector<Explanation> explanations;
   for (const LineHypothesis& one : hypotheses) {
     if (one.log_likelihood < hypotheses.front().log_likelihood - kHopeless) break;
-    Track track = smooth_one(pass, options, one);
-    const double beside = beside_lane(options, track);
-    track.log_likelihood -= 0.5 * beside * beside;
-    if (is_finite(track)) explanations.push_back({std::move(track), one});
+    for (const Direction direction : directions) {
+      Track track = smooth_one(direction, pass, options, one);
+      const double beside = beside_lane(options, track);
+      track.log_likelihood -= 0.5 * beside * beside;
+      if (is_finite(track)) explanations.push_back({std::move(track), one, direction});
+    }
   }
   return rivals(std::move(explanations));
 }
 
 /// The same motion, if the height were known.
-Track at_height(Pass pass, const TrackingOptions& options, const LineHypothesis& from,
+Track at_height(Pass pass, const TrackingOptions& options, const Explanation& explanation,
                 double height_m) {
   pass.height = {height_m, options.height_sigma_m};
-  return smoothed(pass, options, fitted_again(pass, options, from));
+  return smoothed_in(explanation.direction, pass, options,
+                     fitted_again(pass, options, explanation.from));
 }
 
 /// Adds what an unknown height changes to second order, which the linearized smoother leaves out:
@@ -155,8 +202,8 @@ void allow_for_height(const Pass& pass, const TrackingOptions& options, Explanat
   Track& track = explanation.track;
   const TrackPoint& middle = track.points[track.points.size() / 2];
   const double sigma = std::sqrt(std::max(0.0, middle.covariance(2, 2)));
-  const Track above = at_height(pass, options, explanation.from, middle.p_WT.z() + sigma);
-  const Track below = at_height(pass, options, explanation.from, middle.p_WT.z() - sigma);
+  const Track above = at_height(pass, options, explanation, middle.p_WT.z() + sigma);
+  const Track below = at_height(pass, options, explanation, middle.p_WT.z() - sigma);
   if (!is_finite(above) || !is_finite(below)) return;
   for (std::size_t i = 0; i < track.points.size(); ++i) {
     TrackPoint& point = track.points[i];
@@ -203,9 +250,11 @@ bool is_enough(const std::vector<Level>& levels) {
 std::vector<Level> levels_of(const Pass& pass, const TrackingOptions& options,
                              const std::vector<LineHypothesis>& hypotheses) {
   std::vector<Level> levels;
+  std::vector<Direction> directions = {Direction::kForwards};
   for (const double noise : noises_to_try(options)) {
     std::vector<Explanation> explanations =
-        explanations_of(pass, with_noise(options, noise), hypotheses, smoothed);
+        explanations_of(pass, with_noise(options, noise), hypotheses, directions, smoothed_in);
+    if (!options.lane && directions.size() == 1) directions.push_back(Direction::kBackwards);
     if (explanations.empty()) continue;
     levels.push_back({noise, std::move(explanations)});
     if (is_enough(levels)) break;
@@ -252,7 +301,8 @@ TracksFound find_tracks(const Pass& pass, const TrackingOptions& options) {
   Level taken = most_noise(levels);
   const TrackingOptions how = with_noise(options, taken.noise);
   if (options.method == TrackMethod::kParticle) {
-    taken.explanations = explanations_of(pass, how, hypotheses, by_particles);
+    taken.explanations =
+        explanations_of(pass, how, hypotheses, {Direction::kForwards}, by_particles);
   }
   TracksFound found;
   found.demand = demand_of(options, levels, taken.noise);
