@@ -230,6 +230,12 @@ int count_of_passes() {
   return asked == nullptr ? kUsual : std::max(1, std::atoi(asked));
 }
 
+void print(const std::string& name, const TrackClaims& claims) {
+  fmt::print("{}: of {} passes {} tracked, {} of these false; {} ambiguous, {} without the truth\n",
+             name, claims.passes, claims.tracked, claims.false_ones, claims.ambiguous,
+             claims.without_truth);
+}
+
 TrackClaims random_claims(const std::string& name, TrackMethod method,
                           const std::vector<Disturbance>& disturbances, int count) {
   TrackClaims claims;
@@ -244,9 +250,7 @@ TrackClaims random_claims(const std::string& name, TrackMethod method,
                                          static_cast<int>(moves), static_cast<int>(disturbance));
     add(passage, what, claims);
   }
-  fmt::print("{}: of {} passes {} tracked, {} of these false; {} ambiguous, {} without the truth\n",
-             name, claims.passes, claims.tracked, claims.false_ones, claims.ambiguous,
-             claims.without_truth);
+  print(name, claims);
   return claims;
 }
 
@@ -273,18 +277,15 @@ Passage without_lane(Moves moves, int seed) {
 }
 
 TEST(RandomPasses, CornersAndStopsWithoutALaneAreRarelyTrackedWrongly) {
-  TrackClaims claims;
   for (const Moves moves : {Moves::kStops, Moves::kTurnsSharply}) {
+    const std::string name = moves == Moves::kStops ? "stops" : "corners";
+    TrackClaims claims;
     for (int seed = 1; seed <= count_of_passes() / 6; ++seed) {
-      add(without_lane(moves, seed),
-          fmt::format("seed {}, motion {}", seed, static_cast<int>(moves)), claims);
+      add(without_lane(moves, seed), fmt::format("{}, seed {}", name, seed), claims);
     }
+    print(name, claims);
+    EXPECT_LE(claims.false_ones, 1 + claims.tracked / 8);
   }
-  fmt::print(
-      "corners and stops: of {} passes {} tracked, {} of these false; {} ambiguous, {} "
-      "without the truth\n",
-      claims.passes, claims.tracked, claims.false_ones, claims.ambiguous, claims.without_truth);
-  EXPECT_LE(claims.false_ones, 1 + claims.tracked / 8);
 }
 
 /// From the start of the pass alone, whole turns of the phases are decided wrongly where these
