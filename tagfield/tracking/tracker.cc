@@ -80,6 +80,12 @@ TagTrack judged(const TrackingOptions& options, const Pass& pass, const TracksFo
                                            "m/s²/√Hz; if tags do move like this, state it",
                                            found.demanded_noise));
   }
+  if (found.demand == Demand::kUnclear) {
+    return not_tracked(result, fmt::format("it changes its motion, but an acceleration noise of "
+                                           "{:.3g} m/s²/√Hz still leaves slow errors in its "
+                                           "phases; a lane would help",
+                                           best.acceleration_noise));
+  }
   if (best.jumps > pass.antennas.size()) {
     return not_tracked(result, fmt::format("its phases jump {} times, more than once an antenna, "
                                            "which no steady motion explains",

@@ -269,12 +269,15 @@ Level most_noise(const std::vector<Level>& levels) {
                        [&](const Level& level) { return level.log_evidence() > least; });
 }
 
-Demand demand_of(const TrackingOptions& options, const std::vector<Level>& levels, double noise) {
-  if (noise >= noises_to_try(options).back()) return Demand::kTooMuch;
+Demand demand_of(const TrackingOptions& options, const std::vector<Level>& levels,
+                 const Level& taken) {
+  if (taken.noise >= noises_to_try(options).back()) return Demand::kTooMuch;
   const bool is_excluded =
       levels.front().noise > largest_acceleration_noise(options) ||
       levels.front().log_evidence() < likeliest(levels).log_evidence() - kExcluded;
-  return is_excluded ? Demand::kMore : Demand::kNone;
+  if (!is_excluded) return Demand::kNone;
+  const double left = taken.explanations.front().track.correlation_factor;
+  return !options.lane && left > kIndependent ? Demand::kUnclear : Demand::kMore;
 }
 
 void double_errors(std::vector<Track>& tracks) {
@@ -300,13 +303,13 @@ TracksFound find_tracks(const Pass& pass, const TrackingOptions& options) {
   if (levels.empty()) return {};
   Level taken = most_noise(levels);
   const TrackingOptions how = with_noise(options, taken.noise);
+  TracksFound found;
+  found.demand = demand_of(options, levels, taken);
+  found.demanded_noise = likeliest(levels).noise;
   if (options.method == TrackMethod::kParticle) {
     taken.explanations =
         explanations_of(pass, how, hypotheses, {Direction::kForwards}, by_particles);
   }
-  TracksFound found;
-  found.demand = demand_of(options, levels, taken.noise);
-  found.demanded_noise = likeliest(levels).noise;
   for (Explanation& one : taken.explanations) {
     if (pass.height.sigma_m > options.height_sigma_m) allow_for_height(pass, how, one);
     found.tracks.push_back(std::move(one.track));

@@ -15,6 +15,7 @@ enum class Demand {
   kNone,
   kMore,     ///< Only by more.
   kTooMuch,  ///< Not even by the most that is tried.
+  kUnclear,  ///< Not by the stated one, and with more, without a lane, residuals are not noise.
 };
 
 struct TracksFound {
