@@ -69,20 +69,27 @@ void add_middleware_options(CLI::App& command, MiddlewareArguments& arguments) {
                      "are also published to PREFIX/events, with --capture they are posted");
 }
 
-void warn_of_missing_readers(const MiddlewareArguments& arguments, const Scenario& scenario,
-                             Diagnostics& diagnostics) {
-  if (arguments.spec.empty()) return;
+std::optional<EventsSpec> events_spec_of(const MiddlewareArguments& arguments) {
+  if (arguments.spec.empty()) return std::nullopt;
+  if (arguments.broker.empty() && arguments.capture.url.empty()) {
+    throw Error("--spec requires --mqtt or --capture, where events go to");
+  }
+  return read_events_spec(arguments.spec);
+}
+
+void warn_of_missing_readers(const std::string& file, const EventsSpec& spec,
+                             const Scenario& scenario, Diagnostics& diagnostics) {
   std::vector<std::string> antennas;
   std::vector<std::string> readers;
   for (const AntennaSpec& antenna : scenario.antennas) {
     antennas.push_back(antenna.parameters.name);
     readers.push_back(antenna.parameters.reader);
   }
-  for (const LogicalReader& logical : read_events_spec(arguments.spec).logical_readers) {
+  for (const LogicalReader& logical : spec.logical_readers) {
     const auto warn_unless_among = [&](const std::vector<std::string>& known,
                                        const std::string& name, const char* what) {
       if (std::find(known.begin(), known.end(), name) != known.end()) return;
-      diagnostics.warn(Location{arguments.spec, 0},
+      diagnostics.warn(Location{file, 0},
                        fmt::format("the scenario has no {} '{}', which logical reader '{}' names{}",
                                    what, name, logical.name, suggestion(name, known)));
     };
@@ -91,26 +98,23 @@ void warn_of_missing_readers(const MiddlewareArguments& arguments, const Scenari
   }
 }
 
-MiddlewareRun attach_middleware(const MiddlewareArguments& arguments, Time start,
+MiddlewareRun attach_middleware(const MiddlewareArguments& arguments,
+                                const std::optional<EventsSpec>& spec, Time start,
                                 Outlets& outlets) {
   MiddlewareRun run;
-  const bool has_spec = !arguments.spec.empty();
-  if (has_spec && arguments.broker.empty() && arguments.capture.url.empty()) {
-    throw Error("--spec requires --mqtt or --capture, where events go to");
-  }
-  const EventsSpec spec = has_spec ? read_events_spec(arguments.spec) : EventsSpec{};
+  const EventsSpec events = spec.value_or(EventsSpec{});
   std::vector<std::shared_ptr<EventListener>> listeners;
   run.broker = broker_of(arguments, start);
   if (run.broker) attach(run.broker, outlets);
-  if (run.broker && has_spec) listeners.push_back(run.broker);
+  if (run.broker && spec) listeners.push_back(run.broker);
   run.capture = capture_client(arguments.capture);
   if (run.capture) {
     listeners.push_back(std::make_shared<EpcisEvents>(
-        spec, start, false,
+        events, start, false,
         [capture = run.capture](const std::string& event) { capture->capture(event); }));
   }
   if (listeners.empty()) return run;
-  run.events = std::make_shared<EventStage>(spec, listeners);
+  run.events = std::make_shared<EventStage>(events, listeners);
   attach(run.events, outlets);
   return run;
 }

@@ -5,12 +5,14 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "adapters/epcis/capture_client.h"
 #include "adapters/mqtt/mqtt_outlet.h"
 #include "tagfield/events/event_stage.h"
+#include "tagfield/events/events_spec.h"
 #include "tagfield/scenario/scenario.h"
 #include "tagfield/stream/listeners.h"
 
@@ -47,12 +49,18 @@ struct MiddlewareRun {
   std::shared_ptr<EventStage> events;
 };
 
-/// Warns of antennas and readers of --spec that the scenario does not have.
-void warn_of_missing_readers(const MiddlewareArguments& arguments, const Scenario& scenario,
-                             Diagnostics& diagnostics);
+/// The events of --spec, if it is given; the file may be a pipe and is read only once. Throws Error
+/// as read_events_spec() does, and if nothing receives events.
+std::optional<EventsSpec> events_spec_of(const MiddlewareArguments& arguments);
 
-/// Times are `start`, since 1970, plus stamps.
-MiddlewareRun attach_middleware(const MiddlewareArguments& arguments, Time start, Outlets& outlets);
+/// Warns of antennas and readers of the spec, from this file, that the scenario does not have.
+void warn_of_missing_readers(const std::string& file, const EventsSpec& spec,
+                             const Scenario& scenario, Diagnostics& diagnostics);
+
+/// `spec`: see events_spec_of(). Times are `start`, since 1970, plus stamps.
+MiddlewareRun attach_middleware(const MiddlewareArguments& arguments,
+                                const std::optional<EventsSpec>& spec, Time start,
+                                Outlets& outlets);
 
 /// Finishes the run at `end`: reports the events that result, and waits for pending deliveries,
 /// after Ctrl-C only for a moment. False if some were lost or refused, which a warning has

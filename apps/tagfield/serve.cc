@@ -167,11 +167,12 @@ int serve(ServeArguments arguments) {
   const auto feed = std::make_shared<http::LiveFeed>(start_time("serve", arguments.start, Time{}));
   const auto llrp = llrp_server(arguments);
   Diagnostics diagnostics;
+  const std::optional<EventsSpec> spec = events_spec_of(arguments.middleware);
   const ScenarioWithWorld loaded = load(arguments.of_scenario, diagnostics);
   const Scenario scenario = as_planned(loaded.scenario, diagnostics);
   const std::uint64_t seed = arguments.of_scenario.seed.value_or(scenario.seed);
   std::string plan = plan_of(arguments, diagnostics);
-  warn_of_missing_readers(arguments.middleware, scenario, diagnostics);
+  if (spec) warn_of_missing_readers(arguments.middleware.spec, *spec, scenario, diagnostics);
   print_warnings(diagnostics);
   require_token(arguments);
 
@@ -179,7 +180,7 @@ int serve(ServeArguments arguments) {
   attach(feed, outlets);
   if (llrp) attach(llrp, outlets);
   const MiddlewareRun middleware = attach_middleware(
-      arguments.middleware, start_time("serve", arguments.start, Time{}), outlets);
+      arguments.middleware, spec, start_time("serve", arguments.start, Time{}), outlets);
   const std::shared_ptr<LiveEstimates> estimates = live_estimates(arguments, scenario);
   if (estimates) attach(estimates, outlets);
   LiveWorld world(scenario, seed, outlets, options);

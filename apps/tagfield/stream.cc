@@ -69,6 +69,7 @@ class LinePrinter final : public ReadListener {
 
 int stream(const StreamArguments& arguments) {
   Diagnostics diagnostics;
+  const std::optional<EventsSpec> spec = events_spec_of(arguments.middleware);
   ScenarioWithWorld loaded = load(arguments.scenario, diagnostics);
   Scenario& scenario = loaded.scenario;
   if (arguments.speed) scenario.real_time = *arguments.speed;
@@ -77,12 +78,13 @@ int stream(const StreamArguments& arguments) {
   if (scenario.pose.source == PoseSource::kSlam) {
     world = navigation_world(scenario, loaded.scene, diagnostics);
   }
-  warn_of_missing_readers(arguments.middleware, scenario, diagnostics);
+  if (spec) warn_of_missing_readers(arguments.middleware.spec, *spec, scenario, diagnostics);
   print_warnings(diagnostics);
   const Time start = start_time("stream", arguments.start, Time{});
   const auto lines = std::make_shared<LinePrinter>(start);
   RunControl control;
-  const MiddlewareRun middleware = attach_middleware(arguments.middleware, start, control.outlets);
+  const MiddlewareRun middleware =
+      attach_middleware(arguments.middleware, spec, start, control.outlets);
   attach(lines, control.outlets);
   control.threads = arguments.threads;
   control.stop = &interrupted();

@@ -144,6 +144,17 @@ def a_stream_posts_what_its_run_gives(context):
 
 
 @case
+def a_spec_may_come_through_a_pipe(context):
+    # A pipe has its text only once.
+    spec = context.write("spec.yaml", SPEC)
+    with repository_of() as repository:
+        result = run(["bash", "-c", '"$0" stream "$1" --speed 0 --capture "$2" --spec <(cat "$3")', context.tagfield,
+                      context.shipped("conveyor"), repository.url(), spec], cwd=context.folder)
+    check_equal(result.code, 0, f"exit code, {result.err!r}")
+    check(any(event["bizStep"] == "receiving" for event in repository.events()), "no events as the spec names them")
+
+
+@case
 def a_repository_that_comes_late_or_is_busy_gets_all(context):
     folder = context.simulate("conveyor", "--record-only")
     events, spec = expected(context, folder)
