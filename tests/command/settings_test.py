@@ -53,10 +53,11 @@ BESIDE = {
     "in turn": ("model=link_budget", "antennas.*.inventory=gen2", "antennas.right.reader=three",
                 "antennas.far.sharing=time", *FINE),
     "linear": ("model=link_budget", "antennas.*.polarization=linear"),
+    "hopping": ("model=link_budget", "antennas.*.channel_plan=fcc", "antennas.right.reader=three", *FINE),
 }
 
 # Keys tried in a combination that is needed for these alone.
-ONLY = {"in turn": {"sharing"}}
+ONLY = {"in turn": {"sharing"}, "hopping": {"channel_plan", "dwell_s"}}
 
 # A non-default value for each key; keys that need others include them.
 OF_ANTENNA = {

@@ -96,6 +96,51 @@ void require_one_sharing(const Scenario& scenario, const AntennaParameters& ante
   }
 }
 
+bool hops(const RadioModel& model) {
+  return model.effects.hopping && model.plan.carriers_hz.size() > 1;
+}
+
+bool have_same_channels(const RadioModel& a, const RadioModel& b) {
+  return hops(a) == hops(b) && a.plan.carriers_hz == b.plan.carriers_hz &&
+         a.plan.dwell_s == b.plan.dwell_s;
+}
+
+/// "4 carriers from 865.7 to 867.5 MHz, 0.2 s each" or "865.7 MHz".
+std::string channels_of(const RadioModel& model) {
+  const std::vector<double>& carriers_hz = model.plan.carriers_hz;
+  if (!hops(model)) return fmt::format("{:g} MHz", 1e-6 * carriers_hz.front());
+  return fmt::format("{} carriers from {:g} to {:g} MHz, {:g} s each", carriers_hz.size(),
+                     1e-6 * carriers_hz.front(), 1e-6 * carriers_hz.back(), model.plan.dwell_s);
+}
+
+/// The last setting about the antenna's channels; null if they are the default.
+const RawParameter* setting_of_channels(const RadioModel& model) {
+  const auto found =
+      std::find_if(model.settings.rbegin(), model.settings.rend(), [](const RawParameter& setting) {
+        return setting.key == "channel_plan" || setting.key == "carriers_hz" ||
+               setting.key == "frequency_hz" || setting.key == "dwell_s";
+      });
+  return found == model.settings.rend() ? nullptr : &*found;
+}
+
+/// A reader hops by one sequence of channels, whichever port it is on. Ports with carriers of their
+/// own that don't hop are allowed, as LLRP has them.
+void require_one_channel_plan(const Scenario& scenario, const AntennaParameters& antenna) {
+  const RadioModel& model = *physical(antenna);
+  for (const AntennaSpec& other : scenario.antennas) {
+    const RadioModel* const of_other = physical(other.parameters);
+    if (of_other == nullptr || other.parameters.reader != antenna.reader) continue;
+    if (have_same_channels(model, *of_other) || (!hops(model) && !hops(*of_other))) continue;
+    const RawParameter* const at = setting_of_channels(model);
+    if (at == nullptr) continue;  // It is reported at the other one.
+    fail(at->location,
+         fmt::format("antenna '{}' has {}, but antenna '{}' of the same reader, '{}', has {}: "
+                     "expected the same channels and dwell_s for all antennas of a reader",
+                     antenna.name, channels_of(model), other.parameters.name, antenna.reader,
+                     channels_of(*of_other)));
+  }
+}
+
 }  // namespace
 
 void require_use_of_neighbours(const Scenario& scenario, Diagnostics& diagnostics) {
@@ -107,6 +152,7 @@ void require_use_of_neighbours(const Scenario& scenario, Diagnostics& diagnostic
     if (model == nullptr) continue;
     require_others(scenario, antenna.parameters);
     require_one_sharing(scenario, antenna.parameters);
+    require_one_channel_plan(scenario, antenna.parameters);
     warn_of_mask(scenario, antenna.parameters, diagnostics);
     warn_of_port_dwell(cycles, antenna.parameters, diagnostics);
     warn_of_sharing(scenario, antenna.parameters, diagnostics);

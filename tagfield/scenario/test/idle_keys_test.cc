@@ -185,6 +185,35 @@ TEST(IdleKeys, AReaderSharesTheAirInOneWay) {
                        "antenna 'a' has sharing: time, but antenna 'b' of the same reader, "));
 }
 
+TEST(IdleKeys, AReaderHopsByOneSequenceOfChannels) {
+  const auto error_with = [](const std::string& second) {
+    return error_of([&] {
+      warnings_of(hall("link_budget",
+                       ", channel_plan: fcc, inventory: gen2}\n  - {name: b, pose: "
+                       "[0, 0, 1], inventory: gen2" +
+                           second));
+    });
+  };
+  EXPECT_TRUE(contains(error_with(", channel_plan: etsi_low"),
+                       "6: antenna 'a' has 50 carriers from 902.75 to 927.25 MHz, 0.4 s each, but "
+                       "antenna 'b' of the same reader, "));
+  EXPECT_TRUE(contains(error_with(", channel_plan: etsi_low"),
+                       "has 4 carriers from 865.7 to 867.5 MHz, 4 s each: expected the same "
+                       "channels and dwell_s for all antennas of a reader"));
+  EXPECT_TRUE(contains(error_with(", frequency_hz: 915.25e6"), ", has 915.25 MHz: expected"));
+  EXPECT_TRUE(contains(error_with(""), ", has 865.7 MHz: expected"));
+  EXPECT_TRUE(contains(error_with(", channel_plan: fcc, dwell_s: 0.2"), "0.2 s each: expected"));
+  EXPECT_EQ(error_with(", channel_plan: fcc"), "(no error)");
+  EXPECT_EQ(error_with(", channel_plan: etsi_low, reader: two"), "(no error)");
+}
+
+TEST(IdleKeys, PortsThatDoNotHopMayHaveTheirOwnCarriers) {
+  EXPECT_EQ(warnings_of(hall("link_budget",
+                             ", frequency_hz: 865.7e6}\n  - {name: b, pose: "
+                             "[0, 0, 1], frequency_hz: 867.5e6")),
+            Warnings{});
+}
+
 TEST(IdleKeys, ParametersNeedTheirDistribution) {
   EXPECT_TRUE(contains(
       error_of([] { warnings_of(hall("paper", ", optional_distribution_params: [1, 2]")); }),
