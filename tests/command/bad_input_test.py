@@ -730,6 +730,8 @@ def physics_that_cannot_be(context):
             ("reflection_order: 2", "reflection_order: 4", "from 0 to 3, is 4"),
             ("inventory: gen2", "inventory: gen3", "expected none, gen2"),
             ("start_q: 4", "start_q: 16", "from 0 to 15"),
+            ("start_q: 4", "min_q: 5", "min_q must be from 0 to 4 (start_q, the Q of the first round), is 5"),
+            ("start_q: 4", "max_q: 3", "max_q must be from 4 (start_q, the Q of the first round) to 15, is 3"),
             ("tari_us: 25", "tari_us: 30", "6.25"),
             ("blf_khz: 250", "blf_khz: 900", "640"),
             ("sensitivity_dbm: -84", "sensitivity_dbm: 30",

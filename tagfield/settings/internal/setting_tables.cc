@@ -207,8 +207,8 @@ void add_inventory_settings(std::vector<Setting<AntennaDraft>>& all) {
                    }});
   };
   whole("start_q", "Q of the first round, which has 2^Q slots", &InventorySettings::start_q);
-  whole("min_q", "minimum Q", &InventorySettings::min_q);
-  whole("max_q", "maximum Q", &InventorySettings::max_q);
+  whole("min_q", "minimum Q, at most start_q", &InventorySettings::min_q);
+  whole("max_q", "maximum Q, at least start_q", &InventorySettings::max_q);
   const auto real = [&](const char* key, const char* unit, const char* meaning,
                         double InventorySettings::*member) {
     all.push_back(number<D>(key, unit, meaning,
