@@ -15,6 +15,7 @@
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/method.h"
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/internal/antenna_model_yaml.h"
 #include "tagfield/scenario/internal/idle_keys.h"
 #include "tagfield/scenario/internal/localization_yaml.h"
@@ -22,6 +23,7 @@
 #include "tagfield/scenario/internal/neighbour_use.h"
 #include "tagfield/scenario/internal/plan_yaml.h"
 #include "tagfield/scenario/internal/tag_table.h"
+#include "tagfield/scenario/internal/thin_obstacles.h"
 #include "tagfield/scenario/internal/zones_yaml.h"
 #include "tagfield/scenario/placements.h"
 #include "tagfield/scenario/plan_spec.h"
@@ -281,6 +283,15 @@ bool any_physical(const Scenario& scenario) {
                      [](const AntennaSpec& antenna) { return meets_world(antenna.parameters); });
 }
 
+/// Whether obstacles affect any antenna's waves.
+bool any_meets_bodies(const Scenario& scenario) {
+  return std::any_of(scenario.antennas.begin(), scenario.antennas.end(),
+                     [](const AntennaSpec& antenna) {
+                       const RadioModel* const model = physical(antenna.parameters);
+                       return model != nullptr && model->effects.bodies;
+                     });
+}
+
 void require_end(const Scenario& scenario, const std::string& path) {
   const bool any_drives = std::any_of(scenario.robots.begin(), scenario.robots.end(), drives);
   if (!scenario.duration_s && !any_drives && !end_of_recordings(scenario.antennas)) {
@@ -371,6 +382,7 @@ ScenarioWithWorld with_world(ReadScenario read, const std::string& path, const S
   if (scenario.tags.empty()) fail({path, 0}, "no tags: neither the scenario nor its world has one");
   warn_of_idle_settings(scenario, read.of_physical_models, diagnostics);
   require_use_of_neighbours(scenario, diagnostics);
+  if (any_meets_bodies(scenario)) warn_of_thin_obstacles(scenario.obstacles, diagnostics);
   require_readers_of_zones(scenario);
   require_end(scenario, path);
   return loaded;
@@ -455,6 +467,9 @@ Scenario load_scenario(const std::string& path, const std::vector<Override>& ove
     require_use_of_keys(read);
     warn_of_idle_settings(read.scenario, read.of_physical_models, diagnostics);
     require_use_of_neighbours(read.scenario, diagnostics);
+    if (any_meets_bodies(read.scenario)) {
+      warn_of_thin_obstacles(read.scenario.obstacles, diagnostics);
+    }
   }
   return read.scenario;
 }
@@ -497,6 +512,7 @@ ScenarioToPlan load_scenario_to_plan(const std::string& path,
   scenario.radio_world = std::make_shared<const RadioWorld>(
       radio_world(to_plan.loaded.scene, scenario.materials, diagnostics));
   warn_of_zones(scenario, to_plan.plan, diagnostics);
+  warn_of_thin_obstacles(scenario.obstacles, diagnostics);
   add_own_tags(scenario, diagnostics, to_plan.plan);
   if (to_plan.plan.tags.empty()) fail({path, 0}, "plan has no 'tags', and the scenario has none");
   if (!scenario.antennas.empty()) {

@@ -214,6 +214,33 @@ TEST(IdleKeys, PortsThatDoNotHopMayHaveTheirOwnCarriers) {
             Warnings{});
 }
 
+TEST(IdleKeys, LongThinObstaclesAreWalls) {
+  const auto warnings_with = [](const std::string& model, const std::string& obstacle) {
+    return warnings_of(hall(
+        model, "",
+        "obstacles:\n  - {name: wall, position: [1, 3], material: concrete, " + obstacle + "}\n"));
+  };
+  for (const char* const size : {"size: [8, 0.1]", "size: [0.1, 8]"}) {
+    EXPECT_EQ(
+        warnings_with("link_budget", size),
+        Warnings{"10: obstacle 'wall' of 8 m by 0.1 m also shades part of what is in front of "
+                 "it, as obstacles are modelled as screens at their centres, for compact "
+                 "ones: walls belong in the world"});
+  }
+  for (const char* const size :
+       {"size: [2, 0.1]", "size: [8, 2]", "radius_m: 3", "size: [1.2, 0.8]"}) {
+    EXPECT_EQ(warnings_with("multipath", size), Warnings{}) << size;
+  }
+  // A robot's laser sees it as it is.
+  EXPECT_EQ(warnings_of(hall("link_budget", "",
+                             "obstacles:\n  - {name: wall, position: [1, 3], size: [8, 0.1]}\n")),
+            Warnings{});
+  EXPECT_EQ(warnings_of(hall("link_budget", ", without: [bodies]",
+                             "obstacles:\n  - {name: wall, position: [1, 3], size: [8, 0.1], "
+                             "material: metal}\n")),
+            Warnings{});
+}
+
 TEST(IdleKeys, ParametersNeedTheirDistribution) {
   EXPECT_TRUE(contains(
       error_of([] { warnings_of(hall("paper", ", optional_distribution_params: [1, 2]")); }),
