@@ -12,8 +12,11 @@
 #include "apps/tagfield/long_runs.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
+#include "tagfield/channel/radio_world.h"
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/reader/radio_model.h"
+#include "tagfield/report/text.h"
+#include "tagfield/scenario/late_tags.h"
 #include "tagfield/scenario/placements.h"
 #include "tagfield/scenario/plan_spec.h"
 #include "tagfield/scenario/scenario_yaml.h"
@@ -55,6 +58,18 @@ Json describe(const Scene& scene) {
   json["triangles"] = triangles;
   json["materials"] = scene.materials;
   return json;
+}
+
+void add_materials_for_waves(const Scenario& scenario, Json& json) {
+  if (!scenario.radio_world) return;
+  const RadioWorld& world = *scenario.radio_world;
+  json["material_rules"] = scenario.materials.rules.size();
+  json["materials_for_waves"] = Json::array();
+  for (std::uint32_t i = 0; i < world.materials.size(); ++i) {
+    json["materials_for_waves"].push_back(
+        {{"material", world.materials[i].name},
+         {"collisions", std::count(world.material_of.begin(), world.material_of.end(), i)}});
+  }
 }
 
 /// Value of the key `model`: "paper", "link_budget", "multipath".
@@ -106,8 +121,12 @@ Json describe_scenario(const CheckArguments& arguments, Diagnostics& diagnostics
     navigation_world(loaded.scenario, loaded.scene, diagnostics);
   }
   warn_of_long_run(loaded.scenario, true, diagnostics);
+  if (loaded.scenario.duration_s) {
+    warn_of_late_tags(loaded.scenario, *loaded.scenario.duration_s, diagnostics);
+  }
   Json json = {{"kind", "scenario"}, {"scenario", loaded.scenario.name}};
   json.update(describe(loaded.scene));
+  add_materials_for_waves(loaded.scenario, json);
   add_scenario(loaded.scenario, json);
   return json;
 }
@@ -126,6 +145,7 @@ Json describe_plan(const CheckArguments& arguments, Diagnostics& diagnostics) {
   for (const PlanMount& mount : to_plan.plan.mounts) ++models[model_of(mount.antenna)];
   json["models_of_antennas"] = models;
   json.update(describe(to_plan.loaded.scene));
+  add_materials_for_waves(to_plan.loaded.scenario, json);
   add_scenario(to_plan.loaded.scenario, json);
   return json;
 }
@@ -195,6 +215,21 @@ void print_collisions(const Json& json) {
   }
 }
 
+void print_materials(const Json& json) {
+  fmt::print("materials named in the world: {}\n", json["materials"].size());
+  for (const Json& material : json["materials"]) {
+    fmt::print("  {}\n", material.get<std::string>());
+  }
+  if (!json.contains("materials_for_waves")) return;
+  const auto rules = json["material_rules"].get<std::size_t>();
+  fmt::print("materials for waves: {}{}\n", json["materials_for_waves"].size(),
+             rules > 0 ? ", by " + counted(rules, "rule") : "");
+  for (const Json& entry : json["materials_for_waves"]) {
+    fmt::print("  {:<20} {}\n", entry["material"].get<std::string>(),
+               counted(entry["collisions"].get<std::size_t>(), "collision"));
+  }
+}
+
 std::string place_of(const Json& body) {
   const auto p = body["position_m"].get<std::vector<double>>();
   return fmt::format("({:.3f}, {:.3f}, {:.3f}) m on {}", p[0], p[1], p[2],
@@ -226,10 +261,7 @@ void print_text(const std::string& file, const Json& json) {
   fmt::print("models: {}{}\n", json["models"].size() - nested,
              nested > 0 ? fmt::format(", and {} nested in them", nested) : "");
   print_collisions(json);
-  fmt::print("materials: {}\n", json["materials"].size());
-  for (const Json& material : json["materials"]) {
-    fmt::print("  {}\n", material.get<std::string>());
-  }
+  print_materials(json);
   for (const Json& robot : json["robots"]) {
     fmt::print("robot {}: {:.2f} m over its waypoints\n", robot["name"].get<std::string>(),
                robot["path_m"].get<double>());

@@ -36,6 +36,7 @@
 #include "tagfield/report/estimates_csv.h"
 #include "tagfield/report/page.h"
 #include "tagfield/report/tracks_page.h"
+#include "tagfield/scenario/late_tags.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
@@ -135,6 +136,17 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
           : run_seeds(scenario, seed, arguments.seeds, control, diagnostics, world, store);
   for (const auto& sink : outlets.sinks) sink->finish();
   return runs;
+}
+
+/// The end of the run may be known only now, as when its robots arrive.
+void warn_of_tags_after_end(const Scenario& scenario, const std::vector<SeedRun>& runs,
+                            Diagnostics& diagnostics) {
+  double end_s = 0.0;
+  for (const SeedRun& run : runs) {
+    if (!run.complete) return;
+    end_s = std::max(end_s, run.simulated_s);
+  }
+  warn_of_late_tags(scenario, end_s, diagnostics);
 }
 
 /// The breakdown; empty if not requested.
@@ -293,6 +305,7 @@ int run(const RunArguments& arguments) {
   const std::vector<SeedRun> runs =
       run_with_progress(arguments, loaded, ways, store.get(), folder, diagnostics);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  warn_of_tags_after_end(scenario, runs, diagnostics);
   if (arguments.record_only) return finish_recording(runs.front(), diagnostics, out, folder);
 
   const std::vector<EffectCost> effects =

@@ -6,6 +6,7 @@ Each fault is one line of a table: the change to a valid input, and the expected
 --show, the messages are printed for review.
 """
 
+import json
 import os
 import shutil
 import subprocess
@@ -772,6 +773,42 @@ def odd_physics_gets_warnings(context):
         path = context.write("odd.yaml", replaced(PHYSICS, old, new))
         result = context.run_well("run", path, "--no-page", "--out", context.folder / "out")
         check_in(says, result.err, new)
+
+
+@case
+def tags_that_appear_after_the_run_are_warned_of(context):
+    path = context.write("late.yaml", """\
+robots: [{name: r, start: [0, 0, 0], waypoints: [[1, 0]]}]
+antennas: [{name: a, on: r, pose: [0, 0, 1]}]
+tags:
+  - {id: here, position: [1, 1, 1]}
+  - {id: late, position: [2, 1, 1], appears_s: 100}
+""")
+    says = ":5: tag 'late' appears at 100 s, after the run's end at "
+    # That a robot has arrived is known only after the run.
+    check_in(says, context.run_well("run", path, "--no-page", "--out", "out").err, "run")
+    check_in(says, context.run_well("run", path, "--record-only", "--out", "recorded").err, "run --record-only")
+    for command in (("check", path), ("stream", path, "--speed", "0")):
+        result = context.run_well(*command, "--set", "duration_s=2")
+        check_in(says + "2 s: it is not read", result.err, f"{command}")
+        result = context.run_well(*command, "--set", "duration_s=120")
+        check("late" not in result.err, f"{command}: {result.err!r}")
+
+
+@case
+def check_tells_which_materials_waves_meet(context):
+    for name, text in (("hall.sdf", HALL), ("tag.yaml", TAG_PROFILE), ("reader.yaml", READER_PROFILE)):
+        context.write(name, text)
+    path = context.write("base.yaml", PHYSICS)
+    described = json.loads(context.run_well("check", path, "--json").out)
+    check_equal(described["material_rules"], 1, "rules")
+    materials = {entry["material"]: entry["collisions"] for entry in described["materials_for_waves"]}
+    check_equal(sum(materials.values()), len(described["collisions"]), "collisions with a material")
+    check(materials.get("brick", 0) > 0, f"no brick: {materials}")
+    text = context.run_well("check", path).out
+    check_in(f"materials for waves: {len(materials)}, by 1 rule\n", text, "check")
+    # Waves of the paper's model meet nothing.
+    check("for waves" not in context.run_well("check", context.shipped("paper_warehouse")).out, "paper's model")
 
 
 @case
