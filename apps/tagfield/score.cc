@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <set>
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
@@ -34,18 +36,40 @@ std::map<std::string, double> true_heights(const Truth& truth) {
   return heights;
 }
 
-/// Warns of names that the run doesn't contain, which are usually typos.
-void warn_of_strangers(const std::string& file, const std::vector<TagEstimate>& estimates,
-                       const std::map<std::string, double>& heights,
-                       const std::map<std::string, std::size_t>& reads, Diagnostics& diagnostics) {
+using ReadsOfTags = std::map<std::string, std::size_t>;
+
+/// Removes tags that the run doesn't contain, which are usually typos, with a warning of each.
+void drop_strangers(const std::string& file, const std::map<std::string, double>& heights,
+                    const ReadsOfTags& reads, std::vector<TagEstimate>& estimates,
+                    Diagnostics& diagnostics) {
   std::vector<std::string> known;
   known.reserve(heights.size());
   for (const auto& [tag, height] : heights) known.push_back(tag);
-  for (const TagEstimate& estimate : estimates) {
-    if (heights.count(estimate.tag) > 0 || reads.count(estimate.tag) > 0) continue;
-    diagnostics.warn({file, 0}, fmt::format("the run has no tag '{}'{}", estimate.tag,
-                                            suggestion(estimate.tag, known)));
+  std::vector<TagEstimate> of_run;
+  for (TagEstimate& estimate : estimates) {
+    if (heights.count(estimate.tag) > 0 || reads.count(estimate.tag) > 0) {
+      of_run.push_back(std::move(estimate));
+    } else {
+      diagnostics.warn({file, 0}, fmt::format("the run has no tag '{}'{}: it does not count",
+                                              estimate.tag, suggestion(estimate.tag, known)));
+    }
   }
+  estimates = std::move(of_run);
+}
+
+/// The estimates, and for each other tag of the run that it was never read or has no row in the
+/// table.
+std::vector<TagEstimate> with_tags_without_row(std::vector<TagEstimate> estimates,
+                                               const Truth& truth, const ReadsOfTags& reads,
+                                               const std::string& table) {
+  std::set<std::string> with_row;
+  for (const TagEstimate& estimate : estimates) with_row.insert(estimate.tag);
+  std::vector<TagEstimate> all = with_all_tags(std::move(estimates), truth, {});
+  for (TagEstimate& estimate : all) {
+    if (with_row.count(estimate.tag) > 0 || reads.count(estimate.tag) == 0) continue;
+    estimate.reason = "no row in " + table;
+  }
+  return all;
 }
 
 /// Reads the estimates; one without a height is evaluated at the height of its tag.
@@ -76,13 +100,15 @@ int score(const ScoreArguments& arguments) {
   Diagnostics diagnostics;
   const std::map<std::string, double> heights = true_heights(truth);
   std::vector<TagEstimate> estimates = read_estimates(arguments.estimates, heights, diagnostics);
-  warn_of_strangers(arguments.estimates, estimates, heights, count_by_tag(reads), diagnostics);
+  const ReadsOfTags of_tags = count_by_tag(reads);
+  drop_strangers(arguments.estimates, heights, of_tags, estimates, diagnostics);
   Summary summary;
   summary.scenario = arguments.run;
   summary.method = summary.method_asked = fs::path(arguments.estimates).filename().string();
   summary.pose = "given";
   summary.reads = reads.size();
-  summary.tags = judged(with_all_tags(std::move(estimates), truth, {}), reads, truth, references);
+  summary.tags = judged(with_tags_without_row(std::move(estimates), truth, of_tags, summary.method),
+                        reads, truth, references);
   summary.warnings = diagnostics.warnings();
   print_warnings(diagnostics);
   fmt::print("{}", arguments.as_json ? to_json(summary) : table_of(summary));

@@ -314,6 +314,17 @@ std::string inventory_lines(const Summary& summary) {
          antenna_lines(*summary.inventory) + without_lines(*summary.inventory) + why;
 }
 
+/// How many of the located tags can't be judged though others are; "" if there are none.
+std::string unknown_positions(const Summary& summary) {
+  const auto is_known = [](const TagOutcome& tag) { return tag.truth_m || tag.moved; };
+  if (std::none_of(summary.tags.begin(), summary.tags.end(), is_known)) return "";
+  const auto unknown =
+      std::count_if(summary.tags.begin(), summary.tags.end(), [&](const TagOutcome& tag) {
+        return tag.estimate.verdict == Verdict::kLocated && !tag.reference && !is_known(tag);
+      });
+  return unknown == 0 ? "" : fmt::format("; the true position of {} located is unknown", unknown);
+}
+
 }  // namespace
 
 std::string table_of(const Summary& summary) {
@@ -325,9 +336,10 @@ std::string table_of(const Summary& summary) {
   text += fmt::format("{} located, {} ambiguous, {} not located", count(summary, Verdict::kLocated),
                       count(summary, Verdict::kAmbiguous), count(summary, Verdict::kNotLocated));
   const std::size_t given = summary.tags.size() - count_to_locate(summary);
-  text += given == 0 ? "\n" : fmt::format(" ({} given)\n", counted(given, "reference tag"));
-  return text + statistics_line(summary) + pose_line(summary) + compared_pose_line(summary) +
-         method_lines(summary) + navigation_lines(summary) + effect_lines(summary);
+  if (given > 0) text += fmt::format(" ({} given)", counted(given, "reference tag"));
+  return text + unknown_positions(summary) + '\n' + statistics_line(summary) + pose_line(summary) +
+         compared_pose_line(summary) + method_lines(summary) + navigation_lines(summary) +
+         effect_lines(summary);
 }
 
 }  // namespace tagfield

@@ -69,6 +69,28 @@ def takes_the_least_that_a_table_can_say(context):
 
 
 @case
+def says_why_a_tag_has_no_position_or_no_error(context):
+    folder = context.simulate(SCENARIO, "--record-only")
+    def without(file, tag):
+        rows = (folder / file).read_text().splitlines(keepends=True)
+        (folder / file).write_text("".join(row for row in rows if tag not in row.split(",")))
+    without("reads.csv", "tag4")      # It was never read,
+    without("truth/tags.csv", "tag2")  # and of this one nobody knows where it was.
+    table = context.write("e.csv", "tag,x_m,y_m\ntag1,0,0\ntag2,0,0\ntagg3,0,0\n")
+    result = context.run_well("score", table, "--run", folder, "--json")
+    summary = json.loads(result.out)
+    tags = {tag["id"]: tag for tag in summary["tags"]}
+    check_equal(sorted(tags), sorted(["tag1", "tag2", *(f"tag{i}" for i in range(3, 11))]), "tags")
+    check_equal((tags["tag3"]["reason"], tags["tag4"]["reason"]), ("no row in e.csv", "cannot localize: never read"),
+                "reasons")
+    check(tags["tag3"]["reads"] > 0 and tags["tag4"]["reads"] == 0, "reads")
+    check_equal((tags["tag2"]["verdict"], tags["tag2"]["error_m"]), ("located", None), "the tag of unknown position")
+    check_in("the run has no tag 'tagg3' (did you mean 'tag3'?): it does not count", result.err, "stderr")
+    text = context.run_well("score", table, "--run", folder).out
+    check_in("2 located, 0 ambiguous, 8 not located; the true position of 1 located is unknown", text, "table")
+
+
+@case
 def says_what_is_wrong_in_a_line(context):
     folder = context.simulate(SCENARIO, "--record-only")
     for text, said in (("tag,x_m\na,1\n", "y_m"), ("tag,x_m,y_m\na,1,nan\n", ":2: "),
