@@ -14,9 +14,11 @@
 #include "adapters/http/target.h"
 #include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
+#include "tagfield/field/antenna_facts.h"
 #include "tagfield/planning/coverage.h"
 #include "tagfield/planning/explanation_json.h"
 #include "tagfield/reader/radio_model.h"
+#include "tagfield/scenario/tag_kinds.h"
 #include "tagfield/simulator/simulation.h"
 
 namespace tagfield::http {
@@ -176,7 +178,7 @@ CoverageQuestion coverage_question(const LiveWorld& world, const Target& target,
   request.tag = scenario.tags.empty() || !scenario.tags.front().model ? default_tag_model()
                                                                       : scenario.tags.front().model;
   request.heights_m = {question.height_m};
-  const double range_m = antenna_json(antenna.spec, X_WA, 1)["range"].get<double>();
+  const double range_m = nominal_range_m(antenna.spec.parameters, kinds_of_tags(scenario));
   const double cell_m =
       number_in(target, "cell", 0.01, 10.0, std::max(kMinCell_m, fitting_cell(range_m)));
   request.grid = grid_around(X_WA.translation, range_m, cell_m);

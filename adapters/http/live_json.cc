@@ -4,13 +4,16 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "tagfield/scenario/tag_kinds.h"
+
 namespace tagfield::http {
 
 Json antennas_json(const LiveWorld& world) {
   Json all = Json::array();
+  const auto kinds = kinds_of_tags(world.scenario());
   for (const LiveAntenna& antenna : world.antennas()) {
     Json json = antenna_json(antenna.spec, world.antenna_pose(antenna),
-                             static_cast<std::size_t>(antenna.port));
+                             static_cast<std::size_t>(antenna.port), kinds);
     json["on"] = antenna.is_on;
     json["faulty"] = antenna.is_faulty;
     all.push_back(std::move(json));

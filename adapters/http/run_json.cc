@@ -14,6 +14,7 @@
 #include "tagfield/files/files.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/map/map_file.h"
+#include "tagfield/scenario/tag_kinds.h"
 
 namespace tagfield::http {
 namespace {
@@ -221,9 +222,10 @@ std::string scene_json(const ScenarioWithWorld& loaded) {
   scene["paths"] = paths_json(loaded.scenario);
   Json antennas = Json::array();
   std::map<std::string, std::size_t> ports;
+  const auto kinds = kinds_of_tags(loaded.scenario);
   for (const AntennaSpec& antenna : loaded.scenario.antennas) {
     const std::size_t port = ++ports[antenna.parameters.reader];
-    antennas.push_back(antenna_json(antenna, antenna.X_PA, port));
+    antennas.push_back(antenna_json(antenna, antenna.X_PA, port, kinds));
   }
   return json_text({{"scene", std::move(scene)}, {"antennas", std::move(antennas)}}) + "\n";
 }

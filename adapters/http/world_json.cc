@@ -176,7 +176,8 @@ Json beam_json(const AntennaParameters& antenna) {
   return {{"theta", theta}, {"phi", phi}, {"gain_db", gains}};
 }
 
-Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size_t port) {
+Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size_t port,
+                  const std::vector<std::shared_ptr<const TagModel>>& kinds) {
   const AntennaParameters& parameters = spec.parameters;
   const auto power_dbm = transmit_power_dbm(parameters);
   return {{"name", parameters.name},
@@ -185,7 +186,7 @@ Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size
           {"robot", spec.on},
           {"pose", pose_json(X_WA)},
           {"model", meets_world(parameters) ? "physical" : "paper"},
-          {"range", nominal_range_m(parameters)},
+          {"range", nominal_range_m(parameters, kinds)},
           {"frequency", nominal_frequency_hz(parameters)},
           {"power_dbm", power_dbm ? Json(*power_dbm) : Json(nullptr)},
           {"beam", beam_json(parameters)}};

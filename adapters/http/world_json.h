@@ -34,7 +34,9 @@ Json paths_json(const Scenario& scenario);
 /// Gain relative to the maximum [dB], on a grid of the angle off the boresight and the azimuth
 /// about it; null for the paper's antenna, which has no pattern.
 Json beam_json(const AntennaParameters& antenna);
-Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size_t port);
+/// `kinds`: of the tags, for the range (see nominal_range_m()).
+Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size_t port,
+                  const std::vector<std::shared_ptr<const TagModel>>& kinds);
 
 /// [xx, xy, yy] of the position's covariance [m²]; if it has none, that of an isotropic one with
 /// the same expected error.

@@ -20,6 +20,7 @@
 #include "tagfield/scenario/placements.h"
 #include "tagfield/scenario/plan_spec.h"
 #include "tagfield/scenario/scenario_yaml.h"
+#include "tagfield/scenario/tag_kinds.h"
 #include "tagfield/sdf/load_world.h"
 #include "tagfield/simulator/navigation_world.h"
 #include "tagfield/simulator/simulation.h"
@@ -60,6 +61,7 @@ Json describe(const Scene& scene) {
   return json;
 }
 
+/// What waves meet in the world: materials stated by rules or guessed.
 void add_materials_for_waves(const Scenario& scenario, Json& json) {
   if (!scenario.radio_world) return;
   const RadioWorld& world = *scenario.radio_world;
@@ -82,14 +84,15 @@ std::string model_of(const AntennaParameters& antenna) {
   return "physical";
 }
 
-Json describe(const AntennaSpec& antenna) {
+Json describe(const AntennaSpec& antenna,
+              const std::vector<std::shared_ptr<const TagModel>>& kinds) {
   const AntennaParameters& parameters = antenna.parameters;
   return {{"name", parameters.name},
           {"model", model_of(parameters)},
           {"on", antenna.on.empty() ? "world" : antenna.on},
           {"position_m", to_list(antenna.X_PA.translation)},
           {"frequency_hz", nominal_frequency_hz(parameters)},
-          {"range_m", nominal_range_m(parameters)},
+          {"range_m", nominal_range_m(parameters, kinds)},
           {"rate_hz", parameters.rate_hz}};
 }
 
@@ -106,8 +109,10 @@ void add_scenario(const Scenario& scenario, Json& json) {
     json["robots"].push_back({{"name", robot.name}, {"path_m", planned_length(robot)}});
   }
   json["antennas"] = Json::array();
-  for (const AntennaSpec& antenna : scenario.antennas)
-    json["antennas"].push_back(describe(antenna));
+  const auto kinds = kinds_of_tags(scenario);
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    json["antennas"].push_back(describe(antenna, kinds));
+  }
   json["tags"] = Json::array();
   for (const TagSpec& tag : scenario.tags) json["tags"].push_back(describe(tag));
 }

@@ -3,19 +3,25 @@
 /// Properties of an antenna that are available for both the paper's model and physical ones.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "tagfield/channel/antenna_pattern.h"
 #include "tagfield/reader/antenna.h"
 
 namespace tagfield {
 
+struct TagModel;
+
 /// Whether its waves interact with objects in the world.
 bool meets_world(const AntennaParameters& antenna);
 
 /// Its range for drawing [m]: the paper's range; for a physical model, which has no range
-/// parameter, the free-space range with the default tag.
-double nominal_range_m(const AntennaParameters& antenna);
+/// parameter, max_range_m() of the most readable of these kinds of tags, or of the default tag if
+/// there are none, less what antennas of unlike polarization lose.
+double nominal_range_m(const AntennaParameters& antenna,
+                       const std::vector<std::shared_ptr<const TagModel>>& kinds = {});
 
 /// The carrier frequency, or the first of several [Hz].
 double nominal_frequency_hz(const AntennaParameters& antenna);

@@ -48,5 +48,50 @@ TEST(AntennaFacts, OfAPhysicalAntennaComeFromItsLinkBudget) {
   EXPECT_NEAR(nominal_range_m(antenna), expected_m, 0.02 * expected_m);
 }
 
+std::shared_ptr<const TagModel> dipole_tag(double sensitivity_dbm) {
+  TagModel tag = *default_tag_model();
+  tag.sensitivity_dbm = sensitivity_dbm;
+  return std::make_shared<const TagModel>(tag);
+}
+
+TEST(AntennaFacts, TheRangeIsThatOfTheMostReadableTag) {
+  const AntennaParameters antenna = physical_antenna();
+  const double alone_m = nominal_range_m(antenna, {dipole_tag(-18.0)});
+  EXPECT_EQ(alone_m, nominal_range_m(antenna));
+  EXPECT_EQ(nominal_range_m(antenna, {dipole_tag(-12.0), dipole_tag(-18.0)}), alone_m);
+  // 6.02 dB are twice the distance.
+  EXPECT_NEAR(nominal_range_m(antenna, {dipole_tag(-11.98)}), 0.5 * alone_m, 1e-3 * alone_m);
+}
+
+AntennaParameters patch_with(PolarizationKind polarization) {
+  AntennaParameters antenna = physical_antenna();
+  RadioModel model = *physical(antenna);
+  model.antenna.shape = PatternShape::kPatch;
+  model.antenna.beam_width_rad = model.antenna.vertical_beam_width_rad = radians(65.0);
+  model.antenna.polarization = polarization;
+  antenna.model = std::make_shared<const RadioModel>(model);
+  return antenna;
+}
+
+// A linear antenna receives half of the power of a circular one, and of a dipole's reply the other
+// half is lost.
+TEST(AntennaFacts, TheRangeKnowsPolarization) {
+  const double linear_m = nominal_range_m(patch_with(PolarizationKind::kLinear));
+  for (const PolarizationKind circular :
+       {PolarizationKind::kRightCircular, PolarizationKind::kLeftCircular}) {
+    EXPECT_NEAR(nominal_range_m(patch_with(circular)), linear_m / std::sqrt(2.0), 1e-9);
+  }
+  // Crossed wires radiate linearly to their sides, and without polarization nothing is lost.
+  AntennaParameters antenna = patch_with(PolarizationKind::kRightCircular);
+  RadioModel model = *physical(antenna);
+  model.antenna.shape = PatternShape::kIsotropic;
+  antenna.model = std::make_shared<const RadioModel>(model);
+  EXPECT_NEAR(nominal_range_m(antenna), linear_m, 1e-9);
+  model.antenna.shape = PatternShape::kPatch;
+  model.effects.polarization = false;
+  antenna.model = std::make_shared<const RadioModel>(model);
+  EXPECT_NEAR(nominal_range_m(antenna), linear_m, 1e-9);
+}
+
 }  // namespace
 }  // namespace tagfield
