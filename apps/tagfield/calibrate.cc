@@ -108,7 +108,8 @@ Calibration calibration_of(const CalibrateArguments& arguments, std::size_t numb
   const std::string& file = arguments.reads[number];
   const std::string poses_file = of_experiment(arguments.poses, number, count, "--poses");
   const std::string tags_file = of_experiment(arguments.tags, number, count, "--tags");
-  const auto [reads, poses] = read_tables("calibrate", file, poses_file, arguments.format);
+  const auto [reads, poses] =
+      read_tables({"calibrate", file, poses_file, arguments.format}, diagnostics);
   const auto tags = read_tag_positions_csv(tags_file);
   if (!has_phases(reads)) fail({file, 0}, "the reads have no phases, or all the same one");
   Calibration calibration =

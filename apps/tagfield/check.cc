@@ -9,6 +9,7 @@
 #include "apps/tagfield/checked_file.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/long_runs.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
@@ -32,7 +33,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct CheckArguments {
-  std::string file;
+  CheckedFile of;
   std::vector<std::string> settings;
   std::vector<std::string> model_paths;
   bool as_json = false;
@@ -119,7 +120,7 @@ void add_scenario(const Scenario& scenario, Json& json) {
 
 Json describe_scenario(const CheckArguments& arguments, Diagnostics& diagnostics) {
   const ScenarioWithWorld loaded = load_scenario_with_world(
-      arguments.file, overrides_in(arguments.settings), diagnostics, arguments.world);
+      arguments.of.path, overrides_in(arguments.settings), diagnostics, arguments.world);
   // Anything that would stop the run stops the check.
   const Simulation simulation(loaded.scenario, loaded.scenario.seed);
   if (loaded.scenario.pose.source == PoseSource::kSlam) {
@@ -138,7 +139,7 @@ Json describe_scenario(const CheckArguments& arguments, Diagnostics& diagnostics
 
 Json describe_plan(const CheckArguments& arguments, Diagnostics& diagnostics) {
   const ScenarioToPlan to_plan = load_scenario_to_plan(
-      arguments.file, overrides_in(arguments.settings), diagnostics, arguments.world);
+      arguments.of.path, overrides_in(arguments.settings), diagnostics, arguments.world);
   Json json = {{"kind", "plan"}, {"scenario", to_plan.loaded.scenario.name}};
   std::size_t places = 0;
   for (const PlanTags& tags : to_plan.plan.tags) places += tags.places.size();
@@ -157,7 +158,7 @@ Json describe_plan(const CheckArguments& arguments, Diagnostics& diagnostics) {
 
 Json describe_world(const CheckArguments& arguments, Diagnostics& diagnostics) {
   const Scene scene =
-      load_world(arguments.file, arguments.model_paths, diagnostics, arguments.world);
+      load_world(arguments.of.path, arguments.model_paths, diagnostics, arguments.world);
   Scenario scenario;
   add_placements(scene, scenario, diagnostics);
   Json json = {{"kind", "world"}};
@@ -166,16 +167,27 @@ Json describe_world(const CheckArguments& arguments, Diagnostics& diagnostics) {
   return json;
 }
 
+/// The file is of another kind than what the option is for.
+[[noreturn]] void refuse_option(const CheckArguments& arguments, const std::string& option,
+                                const std::string& what) {
+  throw Error(
+      fmt::format("check: {} {}, which this file is not: {}", option, what, arguments.of.path));
+}
+
 Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
-  suggest_shared_file(arguments.file);
-  const std::string kind = kind_of_file(arguments.file);
+  suggest_shared_file(arguments.of.path);
+  const std::string kind = kind_of_file(arguments.of);
+  const bool is_in_space = kind == "scenario" || kind == "plan" || kind == "world";
+  if (is_in_space && !arguments.of.poses.empty()) {
+    refuse_option(arguments, "--poses", "is for tables of reads");
+  }
   if (kind == "scenario") return describe_scenario(arguments, diagnostics);
   if (kind == "plan") return describe_plan(arguments, diagnostics);
   if (!arguments.settings.empty()) {
-    throw Error("check: --set changes a scenario, which this file is not: " + arguments.file);
+    refuse_option(arguments, "--set", "changes a scenario");
   }
   if (kind == "world") return describe_world(arguments, diagnostics);
-  return describe_checked_file(arguments.file, kind, diagnostics);
+  return describe_checked_file(arguments.of, kind, diagnostics);
 }
 
 /// Prints the contents of a file, one fact per line.
@@ -241,8 +253,9 @@ std::string place_of(const Json& body) {
                      body["on"].get<std::string>());
 }
 
-void print_text(const std::string& file, const Json& json) {
-  fmt::print("{}: good\n", file);
+void print_text(const std::string& file, const Json& json, std::size_t warnings) {
+  fmt::print("{}: {}\n", file,
+             warnings == 0 ? "good" : "can be read, with " + counted(warnings, "warning"));
   if (!json.contains("world")) {
     print_facts(json);
     return;
@@ -293,7 +306,7 @@ int check_file(const CheckArguments& arguments) {
     json["warnings"] = diagnostics.warnings();
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    print_text(arguments.file, json);
+    print_text(arguments.of.path, json, diagnostics.warnings().size());
   }
   return kExitOk;
 }
@@ -306,11 +319,15 @@ void add_check_command(CLI::App& app, Action& chosen) {
       "check", "Show what is in a file of any kind, or what is wrong and in which line");
   command
       ->add_option(
-          "FILE", arguments->file,
+          "FILE", arguments->of.path,
           "Scenario, plan, suite, sweep, events, profile, calibration or map (YAML), world "
-          "(.sdf, .world), table (CSV), recording of ROS (.bag, .mcap, .db3), or the "
-          "folder of a run")
+          "(.sdf, .world), table (CSV, also in an archive), recording of ROS (.bag, .mcap, .db3), "
+          "or the folder of a run")
       ->required();
+  command->add_option("--poses", arguments->of.poses,
+                      "With a table of reads: the poses of its antennas (CSV), which are then "
+                      "checked together, as by 'localize'");
+  add_format_option(*command, arguments->of.format);
   command->add_option("--set", arguments->settings, "Replace a value of the scenario, as in 'run'")
       ->take_all()
       ->allow_extra_args(false);

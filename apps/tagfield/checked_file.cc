@@ -6,12 +6,17 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <set>
 
+#include "adapters/archive/unpacked_archive.h"
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_method.h"
+#include "apps/tagfield/foreign_tables.h"
+#include "apps/tagfield/odd_tables.h"
 #include "apps/tagfield/stored_reads.h"
 #include "apps/tagfield/suite_recording.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/events/events_yaml.h"
 #include "tagfield/experiment/bench/prepared.h"
 #include "tagfield/experiment/bench/suite.h"
@@ -24,6 +29,7 @@
 #include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/files/tag_positions_csv.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/localization/problem.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/report/estimates_csv.h"
 #include "tagfield/report/run_files.h"
@@ -41,8 +47,8 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kExpected =
     "expected a scenario, plan, suite, sweep, events, profile, dataset format, calibration or map "
     "(YAML), a "
-    "world (.sdf, .world), a table (.csv), a recording of ROS (.bag, .mcap, .db3) or the folder of "
-    "a run";
+    "world (.sdf, .world), a table (.csv, or one in an archive such as .tgz), a recording of ROS "
+    "(.bag, .mcap, .db3) or the folder of a run";
 
 std::string kind_of_yaml(const std::string& path) {
   const YAML::Node root = read_yaml(path);
@@ -83,12 +89,6 @@ void add_reads(const ReadOverview& reads, Json& json) {
   json["duration_s"] = reads.count == 0 ? 0.0 : to_seconds(reads.last - reads.first);
 }
 
-void add_table_of_reads(const std::string& path, Json& json) {
-  ReadOverview overview;
-  for_each_read(path, [&](const TagRead& read) { add(read, overview); });
-  add_reads(overview, json);
-}
-
 void add_poses(const std::vector<AntennaPose>& poses, Json& json) {
   json["poses"] = poses.size();
   json["antennas"] = names_in(poses, [](const AntennaPose& pose) { return pose.antenna; });
@@ -104,8 +104,51 @@ Json describe_estimates(const std::string& path) {
           {"tags", names_in(estimates, [](const TagEstimate& estimate) { return estimate.tag; })}};
 }
 
+/// The table of reads if it does not fit in memory; none otherwise.
+std::optional<std::string> large_table(const CheckedFile& file) {
+  if (!file.format.empty()) return std::nullopt;
+  const std::string reads =
+      is_run(file.path) ? (fs::path(file.path) / "reads.csv").string() : file.path;
+  return part_of_table(reads, std::nullopt) ? std::optional(reads) : std::nullopt;
+}
+
+/// Warns of what localization would, of reads and their poses.
+void warn_as_localization(const CheckedFile& file, const ReadOverview& overview,
+                          const ReadsAndPoses& tables, Diagnostics& diagnostics) {
+  warn_of_odd_reads(file.path, overview, diagnostics);
+  if (tables.poses.empty()) return;
+  warn_of_odd_poses(file.poses.empty() ? file.path : file.poses, tables.poses, diagnostics);
+  make_problem(tables.reads, tables.poses, {}, diagnostics);
+}
+
+/// Reads, in whatever form `localize` takes them.
+Json describe_reads(const CheckedFile& file, Diagnostics& diagnostics) {
+  Json json = {{"kind", "reads"}};
+  if (const auto table = large_table(file)) {
+    const ReadOverview overview = reads_of_table(*table, diagnostics).overview;
+    add_reads(overview, json);
+    warn_of_odd_reads(*table, overview, diagnostics);
+    diagnostics.warn({*table, 0}, "too large to look at each tag's phases and poses together");
+    return json;
+  }
+  const ReadsAndPoses tables =
+      read_tables({"check", file.path, file.poses, file.format, false}, diagnostics);
+  const ReadOverview overview = overview_of(tables.reads);
+  add_reads(overview, json);
+  if (!tables.poses.empty()) json["poses"] = tables.poses.size();
+  warn_as_localization(file, overview, tables, diagnostics);
+  return json;
+}
+
+void refuse_poses(const CheckedFile& file) {
+  if (!file.poses.empty()) {
+    throw Error("check: --poses is for tables of reads, which this is not: " + file.path);
+  }
+}
+
 /// Identified by its columns, regardless of the file's name.
-Json describe_table(const std::string& path) {
+Json describe_plain_table(const CheckedFile& file, Diagnostics& diagnostics) {
+  const std::string& path = file.path;
   CsvTable head;
   std::size_t rows = 0;
   read_csv_rows(
@@ -114,11 +157,12 @@ Json describe_table(const std::string& path) {
     return std::all_of(columns.begin(), columns.end(),
                        [&](const char* column) { return head.has_column(column); });
   };
-  Json json;
   if (has({"stamp_s", "antenna", "tag", "frequency_hz", "rssi_dbm"})) {
-    json["kind"] = "reads";
-    add_table_of_reads(path, json);
-  } else if (has({"stamp_s", "antenna", "x_m", "qw"})) {
+    return describe_reads(file, diagnostics);
+  }
+  refuse_poses(file);
+  Json json;
+  if (has({"stamp_s", "antenna", "x_m", "qw"})) {
     json["kind"] = "antenna poses";
     add_poses(read_poses_csv(path), json);
   } else if (has({"tag", "height_m"})) {
@@ -136,6 +180,17 @@ Json describe_table(const std::string& path) {
              "tables in other formats are read with --format (docs/datasets.md)",
              fmt::join(head.header, ", ")));
   }
+  return json;
+}
+
+Json describe_table(const CheckedFile& file, Diagnostics& diagnostics) {
+  if (!file.format.empty()) return describe_reads(file, diagnostics);
+  Json json;
+  use_tables(file.path, diagnostics, [&](const std::string& path, Diagnostics& of_tables) {
+    const CheckedFile plain = {path, file.poses, ""};
+    json =
+        is_folder(path) ? describe_reads(plain, of_tables) : describe_plain_table(plain, of_tables);
+  });
   return json;
 }
 
@@ -231,24 +286,25 @@ Json describe_recording(const std::string& path, Diagnostics& diagnostics) {
   return json;
 }
 
-Json describe_run(const std::string& path) {
-  const RunFiles run = read_run_files(path);
-  Json json = {{"kind", "folder of a run"}, {"scenario", run.summary.scenario}};
-  if (run.reads.size() == run.reads_in_table) {
-    add_reads(overview_of(run.reads), json);
-  } else {
-    add_table_of_reads((fs::path(path) / "reads.csv").string(), json);
-  }
+Json describe_run(const CheckedFile& file, Diagnostics& diagnostics) {
+  const std::string scenario = read_run_files(file.path).summary.scenario;
+  Json json = {{"kind", "folder of a run"}, {"scenario", scenario}};
+  Json reads = describe_reads(file, diagnostics);
+  reads.erase("kind");
+  json.update(reads);
   return json;
 }
 
 }  // namespace
 
-std::string kind_of_file(const std::string& path) {
+std::string kind_of_file(const CheckedFile& file) {
+  const std::string& path = file.path;
   std::error_code error;
+  if (!file.format.empty() || is_archive(path)) return "table";
   if (is_bag(path)) return "recording";
   if (fs::is_directory(path, error)) {
     if (fs::exists(fs::path(path) / "summary.json", error)) return "run";
+    if (is_run(path) && fs::exists(fs::path(path) / "antenna_poses.csv", error)) return "table";
     fail({path, 0}, std::string("is a folder, but not of a run; ") + kExpected);
   }
   const std::string ending = fs::path(path).extension().string();
@@ -258,16 +314,18 @@ std::string kind_of_file(const std::string& path) {
   fail({path, 0}, kExpected);
 }
 
-Json describe_checked_file(const std::string& path, const std::string& kind,
+Json describe_checked_file(const CheckedFile& file, const std::string& kind,
                            Diagnostics& diagnostics) {
+  if (kind == "run") return describe_run(file, diagnostics);
+  if (kind == "table") return describe_table(file, diagnostics);
+  refuse_poses(file);
+  const std::string& path = file.path;
   if (kind == "suite" || kind == "sweep") return describe_suite(path, kind, diagnostics);
   if (kind == "events") return describe_events(path);
   if (kind == "profile") return describe_profile(path);
   if (kind == "calibration") return describe_calibration(path);
   if (kind == "map") return describe_map(path, diagnostics);
   if (kind == "recording") return describe_recording(path, diagnostics);
-  if (kind == "run") return describe_run(path);
-  if (kind == "table") return describe_table(path);
   const DatasetForm form = read_dataset_form(path);
   return {{"kind", "dataset format"},
           {"tag_column", form.tag_column},

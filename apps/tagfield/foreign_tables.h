@@ -5,9 +5,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "tagfield/base/error.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/stream/tag_read.h"
 
@@ -32,13 +34,25 @@ struct TableFiles {
 TableFiles own_tables(const std::string& command, const std::string& reads,
                       const std::string& poses);
 
-/// Reads tables, with a progress bar. `reads`: a table, a run's folder, with a format also a folder
-/// of tables, or any of them in an archive. `poses`: a table, or "" if the antennas' poses are part
-/// of the format or the run. `format`: a file, the name of one in profiles/datasets, or "" for the
-/// project's own format. Throws Error, beginning with `command`, if poses are missing or given
-/// twice.
-ReadsAndPoses read_tables(const std::string& command, const std::string& reads,
-                          const std::string& poses, const std::string& format);
+/// Where a command finds reads and poses.
+struct TableSources {
+  std::string command;  ///< With which error messages begin.
+  /// A table, a run's folder, with a format also a folder of tables, or any of them in an archive.
+  std::string reads;
+  std::string poses;  ///< A table, or "" if they are part of the format or the run.
+  std::string
+      format;  ///< A file, the name of one in profiles/datasets, or "" for the project's own.
+  bool needs_poses = true;
+};
+
+/// Reads tables, with a progress bar. Warns of carriers and phases in the wrong unit. Throws Error
+/// if poses are missing or given twice. Without `needs_poses` they are empty if there are none.
+ReadsAndPoses read_tables(const TableSources& sources, Diagnostics& diagnostics);
+
+/// Calls `use` with the only table or folder of tables in the archive, unpacked for as long as that
+/// takes; or with `path` itself, if it is not an archive. Errors and warnings name `path`.
+void use_tables(const std::string& path, Diagnostics& diagnostics,
+                const std::function<void(const std::string& tables, Diagnostics& of_tables)>& use);
 
 /// Adds `--format`.
 void add_format_option(CLI::App& command, std::string& format);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <set>
@@ -13,12 +14,21 @@
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/read_overview.h"
 #include "tagfield/files/reads_csv.h"
+#include "tagfield/files/truth_csv.h"
 
 namespace tagfield {
 namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder of a table, or of a run.
+fs::path folder_of_reads(const std::string& reads) {
+  return is_folder(reads) ? fs::path(reads) : fs::path(reads).parent_path();
+}
 
 std::map<std::string, Trajectory> by_name(const std::vector<AntennaPose>& poses) {
   std::map<std::string, Trajectory> trajectories;
@@ -152,7 +162,62 @@ void take_unreported(const BagArguments& arguments, const std::string& out,
                                recording.poses.name));
 }
 
+/// What a recording lacks is mostly in the part that is cut off, of which only a warning would
+/// tell.
+void fail_by_damage(const std::string& bag, const Error& error, const Diagnostics& diagnostics) {
+  for (const std::string& warning : diagnostics.warnings()) {
+    if (warning.rfind(bag + ": ", 0) != 0 || warning.find("cut off") == std::string::npos) continue;
+    throw Error(fmt::format("{} ({})", error.what(), warning.substr(bag.size() + 2)));
+  }
+}
+
+LoadedRecording whole_recording(const BagArguments& arguments, const std::string& out,
+                                const std::set<std::string>& references, bool keep,
+                                Diagnostics& diagnostics) {
+  const std::set<std::string> words = {"", "auto", "true", "tf", "odometry"};
+  if (words.count(arguments.poses) == 0) {
+    throw Error(fmt::format("{}: --poses is '{}', expected {} for a bag", arguments.command,
+                            arguments.poses, kPoseWords));
+  }
+  BagOptions options = options_of(arguments);
+  options.max_reads = max_reads(arguments, keep);
+  if (arguments.poses != "tf" && arguments.poses != "odometry") {
+    options.max_reads_believed = arguments.part_reads ? 0 : kManyReads;
+  }
+  BagRecording bag = bag_with_progress(arguments.bag, options, diagnostics);
+  LoadedRecording recording;
+  choose_poses(arguments, options, bag, recording);
+  compare_frames(arguments.bag, bag,
+                 recording.poses.name != "true" || !recording.other.poses.empty(), diagnostics);
+  if (bag.unreported) {
+    recording.unreported = std::move(bag.unreported);
+    take_unreported(arguments, out, references, keep, recording, diagnostics);
+  } else {
+    recording.reads = std::move(bag.reads);
+    recording.overview = overview_of(recording.reads);
+  }
+  recording.truth = std::move(bag.truth);
+  recording.path_length_m = driven_path(recording.truth, recording.poses.poses);
+  recording.duration_s = bag.duration_s;
+  return recording;
+}
+
 }  // namespace
+
+Truth truth_beside(const std::string& reads) {
+  const fs::path folder = folder_of_reads(reads);
+  if (!is_there(folder / "truth" / "tags.csv")) return {};
+  return read_truth(folder.empty() ? "." : folder.string());
+}
+
+Truth truth_that_fits(const std::string& reads, Diagnostics& diagnostics) {
+  const fs::path tags = folder_of_reads(reads) / "truth" / "tags.csv";
+  if (is_there(tags) && fs::file_size(tags) > kLargeTable) {
+    diagnostics.warn({tags.string(), 0}, "does not fit in memory: nothing is judged by it");
+    return {};
+  }
+  return truth_beside(reads);
+}
 
 EachRead reads_of(const LoadedRecording& recording) {
   if (!recording.source) return each_of(recording.reads);
@@ -180,47 +245,30 @@ LoadedRecording csv_recording(const LocalizeArguments& arguments, const std::str
   if (part || (can_be_stored && !keep && is_read_anew(files.reads))) {
     recording.poses = {"given", read_poses_csv(files.poses)};
     recording.table = files.reads;
-    keep_elsewhere(reads_of_table(files.reads), part, out, references, recording, diagnostics);
+    keep_elsewhere(reads_of_table(files.reads, diagnostics), part, out, references, recording,
+                   diagnostics);
   } else {
-    ReadsAndPoses tables =
-        read_tables("localize", arguments.recording, arguments.poses, arguments.format);
+    ReadsAndPoses tables = read_tables(
+        {"localize", arguments.recording, arguments.poses, arguments.format}, diagnostics);
     recording.reads = std::move(tables.reads);
     recording.poses = {"given", std::move(tables.poses)};
     recording.overview = overview_of(recording.reads);
   }
   recording.path_length_m = longest_path(recording.poses.poses);
+  const ReadOverview& reads = recording.overview;
+  if (reads.count > 0) recording.duration_s = to_seconds(reads.last - reads.first);
   return recording;
 }
 
 LoadedRecording bag_recording(const BagArguments& arguments, const std::string& out,
                               const std::set<std::string>& references, bool keep,
                               Diagnostics& diagnostics) {
-  const std::set<std::string> words = {"", "auto", "true", "tf", "odometry"};
-  if (words.count(arguments.poses) == 0) {
-    throw Error(fmt::format("{}: --poses is '{}', expected {} for a bag", arguments.command,
-                            arguments.poses, kPoseWords));
+  try {
+    return whole_recording(arguments, out, references, keep, diagnostics);
+  } catch (const Error& error) {
+    fail_by_damage(arguments.bag, error, diagnostics);
+    throw;
   }
-  BagOptions options = options_of(arguments);
-  options.max_reads = max_reads(arguments, keep);
-  if (arguments.poses != "tf" && arguments.poses != "odometry") {
-    options.max_reads_believed = arguments.part_reads ? 0 : kManyReads;
-  }
-  BagRecording bag = bag_with_progress(arguments.bag, options, diagnostics);
-  LoadedRecording recording;
-  choose_poses(arguments, options, bag, recording);
-  compare_frames(arguments.bag, bag,
-                 recording.poses.name != "true" || !recording.other.poses.empty(), diagnostics);
-  if (bag.unreported) {
-    recording.unreported = std::move(bag.unreported);
-    take_unreported(arguments, out, references, keep, recording, diagnostics);
-  } else {
-    recording.reads = std::move(bag.reads);
-    recording.overview = overview_of(recording.reads);
-  }
-  recording.truth = std::move(bag.truth);
-  recording.path_length_m = driven_path(recording.truth, recording.poses.poses);
-  recording.duration_s = bag.duration_s;
-  return recording;
 }
 
 }  // namespace tagfield

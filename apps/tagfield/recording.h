@@ -34,10 +34,10 @@ struct LoadedRecording {
   std::optional<UnreportedReads> unreported;  ///< Same, for a bag.
   ReadOverview overview;
   NamedPoses poses;
-  NamedPoses other;  ///< For comparison; empty if there are none.
-  Truth truth;       ///< Empty if unknown.
+  NamedPoses other;            ///< For comparison; empty if there are none.
+  Truth truth;                 ///< Empty if unknown.
   double path_length_m = 0.0;
-  double duration_s = 0.0;  ///< 0 if unknown.
+  double duration_s = 0.0;  ///< Of a table, from its first read to the last.
 };
 
 /// The reads that are in memory or in `source`. `recording` must outlive it.
@@ -45,11 +45,17 @@ EachRead reads_of(const LoadedRecording& recording);
 
 /// Reads and poses from CSV. Reads of a table over kTableToReadAnew are not kept unless `keep` is
 /// set. `references`: tags at known positions, which are included in all parts if reads are stored
-/// on the path to `out`. Throws Error if `--poses` is missing, or --part-reads is combined with an
-/// archive or third-party tables.
+/// on the path to `out`. Throws Error if `--poses` is
+/// missing, or --part-reads is combined with an archive or third-party tables.
 LoadedRecording csv_recording(const LocalizeArguments& arguments, const std::string& out,
                               const std::set<std::string>& references, bool keep,
                               Diagnostics& diagnostics);
+
+/// The truth beside a table of reads, or in a run's folder; empty if there is none. It is for
+/// judging results only.
+Truth truth_beside(const std::string& reads);
+/// Same, but empty, with a warning, if it is too large for memory.
+Truth truth_that_fits(const std::string& reads, Diagnostics& diagnostics);
 
 /// A command's arguments for a ROS recording.
 struct BagArguments {

@@ -74,13 +74,13 @@ bool is_read_anew(const std::string& table) {
   return !unknown && size >= kTableToReadAnew;
 }
 
-ReadSource reads_of_table(const std::string& table) {
+ReadSource reads_of_table(const std::string& table, Diagnostics& diagnostics) {
   ReadSource source;
   source.file = table;
   ProgressBar bar("reading");
   for_each_read(
       table, [&](const TagRead& read) { add(read, source.overview); },
-      [&](double share) { bar.show(share); });
+      [&](double share) { bar.show(share); }, &diagnostics);
   source.for_each = [table, at_first = source.overview.count](
                         const std::function<void(const TagRead&)>& take,
                         const std::function<void(double)>& on_progress) {

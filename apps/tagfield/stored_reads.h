@@ -54,8 +54,8 @@ struct ReadSource {
 };
 
 /// Reads of a table, which is read once, with a progress bar, so that errors in its rows are
-/// reported now. Throws Error as read_reads_csv() does.
-ReadSource reads_of_table(const std::string& table);
+/// reported now. Throws Error and warns as read_reads_csv() does.
+ReadSource reads_of_table(const std::string& table, Diagnostics& diagnostics);
 
 /// Reads of a recording.
 ReadSource reads_of_bag(const std::string& bag, const UnreportedReads& unreported);

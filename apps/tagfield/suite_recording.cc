@@ -10,7 +10,7 @@ namespace tagfield {
 
 RecordedReads read_recording(const SuiteRecording& recording, Diagnostics& diagnostics) {
   ReadsAndPoses tables =
-      read_tables("recording", recording.reads, recording.poses, recording.format);
+      read_tables({"recording", recording.reads, recording.poses, recording.format}, diagnostics);
   warn_of_odd_reads(recording.reads, overview_of(tables.reads), diagnostics);
   warn_of_odd_poses(recording.poses.empty() ? recording.reads : recording.poses, tables.poses,
                     diagnostics);

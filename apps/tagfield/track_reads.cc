@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <utility>
 
 #include "adapters/archive/unpacked_archive.h"
@@ -11,29 +10,13 @@
 #include "apps/tagfield/recording.h"
 #include "apps/tagfield/track.h"
 #include "apps/tagfield/track_files.h"
-#include "tagfield/base/file_kind.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/tag_heights_csv.h"
-#include "tagfield/files/truth_csv.h"
 #include "tagfield/scenario/calibration_profile.h"
 
 namespace tagfield {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// The folder of a table, or of a run.
-fs::path folder_of_reads(const std::string& reads) {
-  return is_folder(reads) ? fs::path(reads) : fs::path(reads).parent_path();
-}
-
-/// The truth beside the reads of a run, which is used to evaluate the tracks only.
-Truth truth_beside(const std::string& reads) {
-  const fs::path folder = folder_of_reads(reads);
-  if (!is_there(folder / "truth" / "tags.csv")) return {};
-  return read_truth(folder.empty() ? "." : folder.string());
-}
 
 /// How tags are to be tracked, and prior knowledge of them.
 struct Task {
@@ -66,7 +49,8 @@ Task task_of(const TrackArguments& arguments, Diagnostics& diagnostics) {
 }
 
 /// Reads, poses and truth of tables or, in memory, of a ROS recording.
-TrackingRun run_of(const TrackArguments& arguments, std::optional<LoadedRecording> recording) {
+TrackingRun run_of(const TrackArguments& arguments, std::optional<LoadedRecording> recording,
+                   Diagnostics& diagnostics) {
   TrackingRun run;
   run.seed = arguments.seed.value_or(1);
   if (recording) {
@@ -75,7 +59,8 @@ TrackingRun run_of(const TrackArguments& arguments, std::optional<LoadedRecordin
     run.truth = std::move(recording->truth);
     return run;
   }
-  ReadsAndPoses tables = read_tables("track", arguments.input, arguments.poses, arguments.format);
+  ReadsAndPoses tables =
+      read_tables({"track", arguments.input, arguments.poses, arguments.format}, diagnostics);
   run.reads = std::move(tables.reads);
   run.believed_poses = std::move(tables.poses);
   run.truth = truth_beside(arguments.input);
@@ -86,7 +71,7 @@ TrackResult tracked_whole(const TrackArguments& arguments, Task task,
                           std::optional<LoadedRecording> recording, Diagnostics& diagnostics) {
   auto [spec, known] = std::move(task);
   std::vector<TrackingRun> runs(1);
-  runs[0] = run_of(arguments, std::move(recording));
+  runs[0] = run_of(arguments, std::move(recording), diagnostics);
   if (!arguments.calibration.empty()) {
     apply_calibration(read_calibration(arguments.calibration), runs[0].reads,
                       runs[0].believed_poses, known);
@@ -105,16 +90,6 @@ TrackResult tracked_whole(const TrackArguments& arguments, Task task,
   return result;
 }
 
-/// Empty if the truth itself doesn't fit in memory: tracks are then not evaluated.
-Truth truth_that_fits(const std::string& reads, Diagnostics& diagnostics) {
-  const fs::path tags = folder_of_reads(reads) / "truth" / "tags.csv";
-  if (is_there(tags) && fs::file_size(tags) > kLargeTable) {
-    diagnostics.warn({tags.string(), 0}, "does not fit in memory: the tracks are not judged by it");
-    return {};
-  }
-  return truth_beside(reads);
-}
-
 /// A recording from a table of reads that don't fit in memory.
 LoadedRecording stored_table(const TrackArguments& arguments, const TableFiles& files,
                              std::size_t part_reads, const std::string& out,
@@ -122,7 +97,8 @@ LoadedRecording stored_table(const TrackArguments& arguments, const TableFiles& 
   LoadedRecording recording;
   recording.poses = {"given", read_poses_csv(files.poses)};
   recording.truth = truth_that_fits(arguments.input, diagnostics);
-  recording.stored = store_reads(reads_of_table(files.reads), out, part_reads, {}, diagnostics);
+  recording.stored =
+      store_reads(reads_of_table(files.reads, diagnostics), out, part_reads, {}, diagnostics);
   return recording;
 }
 

@@ -55,7 +55,7 @@ Bench compared(const BenchRequest& request, const RunControl& control) {
   Diagnostics diagnostics;
   const auto read = [&](const SuiteRecording& recording) {
     ReadsAndPoses tables =
-        read_tables("recording", recording.reads, recording.poses, recording.format);
+        read_tables({"recording", recording.reads, recording.poses, recording.format}, diagnostics);
     return RecordedReads{std::move(tables.reads), std::move(tables.poses)};
   };
   const PreparedSuite prepared =

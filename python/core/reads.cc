@@ -426,11 +426,14 @@ py::dict calibrate(const ReadsArgument& reads, const PosesArgument& poses, const
 }
 
 py::dict read(const std::string& reads, const std::string& poses, const std::string& format) {
+  Diagnostics diagnostics;
   const auto tables = [&] {
     const py::gil_scoped_release unlocked;
-    return tagfield::read_tables("read", reads, poses, format);
+    return tagfield::read_tables({"read", reads, poses, format}, diagnostics);
   }();
-  return tables_of(tables.reads, tables.poses);
+  py::dict all = tables_of(tables.reads, tables.poses);
+  all["warnings"] = diagnostics.warnings();
+  return all;
 }
 
 }  // namespace

@@ -37,13 +37,15 @@ def read(reads: str | os.PathLike, poses: str | os.PathLike | None = None,
     format: format of third-party tables (docs/datasets.md): a name in profiles/datasets, such as
         "adarf", or the path of a YAML file.
 
-    Raises Error "FILE:LINE: …".
+    Warns of carriers that can't be in Hz and of phases that are hardly in radians. Raises Error
+    "FILE:LINE: …".
     """
     form = path_of("read: format", format)
     if form and not Path(form).suffix and os.sep not in form and not Path(form).exists():
         form = share(f"profiles/datasets/{form}.yaml")
     tables = called("read", _core.read, path_of("read: reads", reads),
                     "" if poses is None else path_of("read: poses", poses), form)
+    tell(tables["warnings"])
     return tables["reads"], tables["poses"]
 
 

@@ -411,6 +411,13 @@ def test_runs_are_read_back(run, tmp_path):
     assert reads["stamp_ns"].tolist() == [500_000_000]
     assert reads["phase_rad"].tolist() == [1.25] and np.isnan(reads["doppler_hz"][0])
     assert poses["position_m"].tolist() == [[1, 2, 3]]
+    (tmp_path / "reads.csv").write_text("stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n"
+                                        "0.5,r,a,t,866.3,90,-50\n", encoding="utf-8")
+    with pytest.warns(tagfield.TagfieldWarning) as told:
+        tagfield.read(tmp_path / "reads.csv", tmp_path / "poses.csv")
+    said = [str(one.message).rsplit("/", 1)[1] for one in told]
+    assert len(said) == 2 and said[0].startswith("reads.csv:2: frequency_hz is 866.3, expected a carrier in Hz")
+    assert said[1].startswith("reads.csv:2: phase_rad is 90: whole cycles are dropped")
     (tmp_path / "reads.csv").write_text("stamp_s,antenna\n1,a\n", encoding="utf-8")
     with pytest.raises(tagfield.Error, match="reads.csv"):
         tagfield.read(tmp_path / "reads.csv", tmp_path / "poses.csv")

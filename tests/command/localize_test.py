@@ -8,13 +8,14 @@ The reads are synthetic, by eq. 3 of the paper along an S-shaped path, so that t
 
 import cmath
 import filecmp
+import json
 import math
 import os
 import random
 import resource
 import tarfile
 
-from common import (SPEED_OF_LIGHT, Skip, case, check, check_equal, check_in, check_near, main,
+from common import (SPEED_OF_LIGHT, Skip, case, check, check_equal, check_in, check_near, files_in, main,
                     position, read_csv, read_json)
 
 METHODS = ("auto", "hyperbola", "ml", "joint", "sar")
@@ -551,6 +552,12 @@ def a_folder_of_stops_in_an_archive(context):
     how = ("--format", "adarf", "--side=+y", "--method", "sar")
     context.run_well("localize", "scan", *how, "--out", "plain")
     plain = (context.folder / "plain/estimates.csv").read_bytes()
+    described = [json.loads(context.run_well("check", name, "--format", "adarf", "--json").out)
+                 for name in ("scan", "scan.tar.gz")]
+    check_equal(described[1]["reads"], read_json(context.folder / "plain/summary.json")["reads"], "reads by check")
+    for facts in described:
+        facts.pop("warnings")
+    check_equal(described[0], described[1], "check of the folder and of the archive")
     for name in ("scan.tar", "scan.tar.gz", "scan.tar.xz"):
         context.run_well("localize", name, *how, "--out", name + "_out")
         check((context.folder / f"{name}_out/estimates.csv").read_bytes() == plain,
@@ -678,6 +685,62 @@ def the_folder_of_a_run_is_its_tables(context):
                      "--tag-height", 1.5, "--out", context.folder / "tables")
     check_equal(*((context.folder / name / "estimates.csv").read_text(encoding="utf-8")
                   for name in ("folder", "tables")), "estimates")
+
+
+@case
+def check_warns_as_localize_does(context):
+    _, _, summary = localize(context, read_rows(TAGS), pose_rows(), "--pose-sigma", "0")
+    check_near(summary["simulated_s"], 359 / 15, 1e-6, "time from the first read to the last")
+    both = ("reads.csv", "--poses", "poses.csv")
+    good = context.run_well("check", *both)
+    check_equal((good.out.splitlines()[0], good.err), ("reads.csv: good", ""), "good tables")
+    header = "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm"
+
+    def table(name, column, change):
+        rows = [row.split(",") for row in read_rows(TAGS)]
+        for row in rows:
+            row[column] = f"{change(float(row[column])):.6f}"
+        context.write(name, "\n".join([header, *(",".join(row) for row in rows)]) + "\n")
+        return name
+
+    for name, says in (
+            (table("mhz.csv", 4, lambda hertz: hertz / 1e6), ("mhz.csv:2: frequency_hz is 865.7, expected a carrier in "
+             "Hz, from 1e+06 to 1e+11: is it in MHz?", "have no usable phase or carrier")),
+            (table("degrees.csv", 5, math.degrees), ("phase_rad is ", "but not for degrees")),
+            (table("cycles.csv", 5, lambda rad: rad / 2 / math.pi), ("they can't be in radians",)),
+            (table("ms.csv", 0, lambda seconds: 1e3 * seconds), ("have no pose at their stamp",))):
+        checked = context.run_well("check", name, "--poses", "poses.csv")
+        located = context.run_well("localize", name, "--poses", "poses.csv", "--pose-sigma", "0", "--out", "odd")
+        for words in says:
+            check_in(words, checked.err, f"check {name}")
+            check_in(words, located.err, f"localize {name}")
+        check_in(f"{name}: can be read, with ", checked.out, "check")
+    # Without poses, the reads alone.
+    check_in("is it in MHz?", context.run_well("check", "mhz.csv").err, "check without poses")
+    result = context.run("check", "poses.csv", "--poses", "poses.csv")
+    check_equal(result.code, 2, "poses of poses")
+    check_in("--poses is for tables of reads", result.err, "poses of poses")
+
+
+@case
+def archives_need_their_format(context):
+    require_archives(context)
+    for name in ("one", "two"):
+        context.write(f"scan/{name}.csv", "epc,x\n")
+    with tarfile.open(context.folder / "two.tgz", "w:gz") as archive:
+        archive.add(context.folder / "scan", "scan")
+    for command in (("localize", "two.tgz"), ("localize", "two.tgz", "--poses", "p.csv"), ("check", "two.tgz")):
+        result = context.run(*command)
+        check_equal((result.code, len(result.err.splitlines())), (2, 1), f"{command}: {result.err!r}")
+        check_in("two.tgz/scan: has 2 tables (one.csv, two.csv), but not the reads.csv of a run, and therefore needs "
+                 "--format: adarf, ", result.err, f"{command}")
+    # A run in an archive needs none.
+    run = context.simulate("z_axis", "--record-only")
+    with tarfile.open(context.folder / "run.tar", "w") as archive:
+        for name in ("reads.csv", "antenna_poses.csv"):
+            archive.add(run / name, name)
+    described = json.loads(context.run_well("check", "run.tar", "--json").out)
+    check_equal(described["reads"], len(read_csv(run / "reads.csv")), "reads in the archive")
 
 
 @case

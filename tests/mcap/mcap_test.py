@@ -411,6 +411,8 @@ def broken_files_are_reported(context):
     result = context.run("localize", cut, "--out", "cut")
     check_equal(result.code, 0, "exit code with a file that is cut off")
     check_in("the file is cut off or broken here", result.err, "warnings")
+    about_file = [line for line in result.err.splitlines() if "cut.mcap: byte " in line]
+    check_equal(len(about_file), 1, f"warnings of the cut: {about_file}")
     check(len(read_csv(context.folder / "cut/reads.csv")) > 1000, "few reads")
     draw = random.Random(1)
     for _ in range(30):
@@ -423,7 +425,13 @@ def broken_files_are_reported(context):
         result = context.run("localize", context.write("bad.mcap", text), "--out", "bad")
         check_equal(result.code, 2, "exit code")
         check_in(says, result.err, "complaint")
+        check_equal(len(result.err.splitlines()), 1, f"lines of {result.err!r}")
         check(not (context.folder / "bad/reads.csv").exists(), "reads.csv is there")
+    # What is missing is in the part that is cut off: the error says so.
+    result = context.run("localize", context.write("cut.mcap", whole[:2000]), "--out", "bad")
+    check_equal((result.code, len(result.err.splitlines())), (2, 1), f"{result.err!r}")
+    check_in("the file is cut off or broken here", result.err, "complaint")
+    check_in("byte ", result.err, "complaint")
 
 
 @case

@@ -69,6 +69,7 @@ class Scanner {
   void take_records_of_chunk(std::uint64_t at, Piece piece);
   void take_message(std::uint64_t at, std::uint64_t length);
   void take_data_end(std::uint64_t at, std::uint64_t length);
+  void judge_footer();
   void judge_loose_messages();
   void resolve();
 
@@ -78,7 +79,9 @@ class Scanner {
   Definitions definitions_;
   std::set<std::uint64_t> chunk_starts_;  ///< According to the summary.
   std::uint64_t end_;                     ///< End of the records to be scanned.
+  bool has_footer_ = false;
   bool is_over_ = false;
+  bool is_cut_ = false;  ///< Before its end.
   bool has_chunks_ = false;
   bool is_data_right_ = false;  ///< According to its CRC.
   Counts loose_counts_;         ///< Messages outside of chunks.
@@ -110,7 +113,7 @@ void Scanner::read_summary(std::uint64_t start, std::uint64_t footer, std::uint3
 }
 
 void Scanner::read_footer() {
-  if (file_.size() < kMagic.size() + kTailBytes) return;
+  if (file_.size() < kMagic.size() + kTailBytes) return;  // So it is cut off.
   const std::uint64_t footer = file_.size() - kTailBytes;
   Fields fields(file_.view(footer, kTailBytes));
   const bool is_footer = fields.number<std::uint8_t>() == static_cast<std::uint8_t>(Op::kFooter) &&
@@ -118,9 +121,8 @@ void Scanner::read_footer() {
   const auto start = fields.number<std::uint64_t>();
   (void)fields.number<std::uint64_t>();  // start of the summary offsets
   const auto crc = fields.number<std::uint32_t>();
-  if (!is_footer || fields.rest() != kMagic) {
-    return complaints_.say(footer, "there is no footer at the end");
-  }
+  has_footer_ = is_footer && fields.rest() == kMagic;
+  if (!has_footer_) return;
   if (start != 0) read_summary(start, footer, crc);
 }
 
@@ -142,12 +144,16 @@ void Scanner::walk() {
       at += kHeadBytes + length;
       continue;
     }
-    is_over_ = limit == end_;
+    is_over_ = is_cut_ = limit == end_;
     complaints_.say(at, is_over_ ? "the file is cut off or broken here, and the rest is left out"
                                  : fmt::format("the file is broken from here to byte {}", limit));
     at = limit;
   }
-  if (!is_over_) complaints_.say(at, "the file ends without a DataEnd record");
+  if (!is_over_ && has_footer_) {
+    complaints_.say(at, "the file ends without a DataEnd record");
+  } else if (!is_over_) {
+    complaints_.say(at, "the file is cut off or broken here: it ends without its last records");
+  }
 }
 
 void Scanner::take(Op op, std::uint64_t at, std::uint64_t length) {
@@ -223,6 +229,12 @@ void Scanner::take_data_end(std::uint64_t at, std::uint64_t length) {
   }
 }
 
+/// A footer that is missing is worth a warning only if the records before it are there.
+void Scanner::judge_footer() {
+  if (has_footer_ || is_cut_ || !is_over_) return;
+  complaints_.say(file_.size(), "the file is cut off or broken here: there is no footer");
+}
+
 /// If there are chunks, messages should be in them. One outside may be a remnant of a damaged
 /// chunk, and only the CRC of all data can exclude that.
 void Scanner::judge_loose_messages() {
@@ -272,6 +284,7 @@ Contents Scanner::scan() {
     read_header();
     read_footer();
     walk();
+    judge_footer();
   } catch (const Error& error) {
     const std::string what = error.what();
     if (what.rfind(file_.path(), 0) == 0) throw;

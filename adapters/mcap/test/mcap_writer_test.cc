@@ -200,7 +200,8 @@ TEST(McapWriter, WithoutFinishWholeChunksStay) {
     Diagnostics diagnostics;
     EXPECT_EQ(read_all(left, diagnostics),
               (std::vector<Sent>{{"/a", 0, 1, 1, "x"}, {"/a", 1, 2, 2, "y"}}));
-    EXPECT_EQ(diagnostics.warnings().size(), 2U);
+    ASSERT_EQ(diagnostics.warnings().size(), 1U);
+    EXPECT_TRUE(contains(diagnostics.warnings()[0], "the file is cut off or broken here"));
   }
 }
 

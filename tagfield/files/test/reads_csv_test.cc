@@ -110,6 +110,41 @@ TEST(ReadReadsCsv, NamesColumnAndLineOfBadInput) {
   EXPECT_TRUE(contains(error_of([] { reads_of("stamp_s,antenna\n1,a\n"); }), "no column 'tag'"));
 }
 
+std::vector<std::string> warnings_of(const std::string& rows) {
+  const TemporaryFolder folder;
+  Diagnostics diagnostics;
+  read_reads_csv(folder.with("r.csv", kReadsHeader + rows), {}, &diagnostics);
+  std::vector<std::string> warnings = diagnostics.warnings();
+  for (std::string& warning : warnings) warning = warning.substr(warning.find("r.csv"));
+  return warnings;
+}
+
+using Warnings = std::vector<std::string>;
+
+TEST(ReadReadsCsv, WarnsOfCarriersThatCannotBeInHertz) {
+  EXPECT_EQ(warnings_of("1,r,a,t,865700000,1,-60\n"), Warnings{});
+  EXPECT_EQ(warnings_of("1,r,a,t,865700000,1,-60\n2,r,a,t,866.3,1,-60\n3,r,a,t,867.5,1,-60\n"),
+            Warnings{"r.csv:3: frequency_hz is 866.3, expected a carrier in Hz, from 1e+06 to "
+                     "1e+11: is it in MHz? (2 rows are like that)"});
+  EXPECT_EQ(warnings_of("1,r,a,t,865700,1,-60\n"),
+            Warnings{"r.csv:2: frequency_hz is 865700, expected a carrier in Hz, from 1e+06 to "
+                     "1e+11: is it in kHz?"});
+  EXPECT_EQ(warnings_of("1,r,a,t,0.9157,1,-60\n"),
+            Warnings{"r.csv:2: frequency_hz is 0.9157, expected a carrier in Hz, from 1e+06 to "
+                     "1e+11: is it in GHz?"});
+  EXPECT_EQ(warnings_of("1,r,a,t,1e15,1,-60\n"),
+            Warnings{"r.csv:2: frequency_hz is 1e+15, expected a carrier in Hz, from 1e+06 to "
+                     "1e+11"});
+}
+
+TEST(ReadReadsCsv, WarnsOfPhasesThatAreHardlyInRadians) {
+  EXPECT_EQ(warnings_of("1,r,a,t,9e8,12.56,-60\n2,r,a,t,9e8,-3.1,-60\n"), Warnings{});
+  EXPECT_EQ(warnings_of("1,r,a,t,9e8,90,-60\n2,r,a,t,9e8,-270.5,-60\n3,r,a,t,9e8,180,-60\n"),
+            Warnings{"r.csv:3: phase_rad is -270.5: whole cycles are dropped, which is right for "
+                     "unwrapped phases in radians, but not for degrees or steps of a cycle, which "
+                     "a --format tells"});
+}
+
 TEST(ReadReadsCsv, RefusesATableFromAnotherSourceAsAWhole) {
   EXPECT_TRUE(contains(error_of([] { reads_of("EPC,Timestamp,RSSI\na,1,-60\n"); }),
                        "r.csv:1: not in Tagfield's own format (stamp_s,reader,antenna,tag,"
