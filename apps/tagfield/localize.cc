@@ -336,6 +336,7 @@ int localize(const LocalizeArguments& arguments) {
       recording_of(arguments, out, references_of(arguments, loaded), diagnostics);
   LocalizationOptions options =
       options_of(arguments, loaded, recording.overview, recording.poses.name);
+  warn_of_unread_tags(arguments, recording.overview, diagnostics);
   warn_of_unused_options(arguments, find_method(options.methods, options.method),
                          recording.poses.name, diagnostics);
   const std::optional<Calibration> calibration =

@@ -2,8 +2,10 @@
 #include "apps/tagfield/localize_known.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "apps/tagfield/foreign_tables.h"
@@ -79,7 +81,37 @@ TagArea area_of(const LocalizeArguments& arguments) {
   return area;
 }
 
+template <class Value>
+void warn_of_unread(const std::string& option, const std::string& file,
+                    const std::map<std::string, Value>& named, const ReadOverview& reads,
+                    Diagnostics& diagnostics) {
+  constexpr std::size_t kNamed = 3;
+  std::vector<std::string> first;
+  std::size_t count = 0;
+  for (const auto& [tag, value] : named) {
+    if (reads.count_by_tag.count(tag) > 0) continue;
+    if (++count <= kNamed) first.push_back(tag);
+  }
+  if (count == 0) return;
+  const std::string hint = count == 1 ? suggestion(first.front(), reads.tags) : "";
+  diagnostics.warn({file, 0}, fmt::format("{}: {} of {} tags were never read, '{}'{}{}", option,
+                                          count, named.size(), fmt::join(first, "', '"),
+                                          count > kNamed ? " and so on" : "", hint));
+}
+
 }  // namespace
+
+void warn_of_unread_tags(const LocalizeArguments& arguments, const ReadOverview& reads,
+                         Diagnostics& diagnostics) {
+  if (!arguments.references_file.empty()) {
+    warn_of_unread("--reference", arguments.references_file,
+                   read_tag_positions_csv(arguments.references_file), reads, diagnostics);
+  }
+  if (!arguments.heights_file.empty()) {
+    warn_of_unread("--tag-heights", arguments.heights_file,
+                   read_tag_heights_csv(arguments.heights_file), reads, diagnostics);
+  }
+}
 
 void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
   CLI::Option* of_all =

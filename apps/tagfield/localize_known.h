@@ -23,6 +23,11 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments);
 void take_known(const LocalizeArguments& arguments, const ReadOverview& reads,
                 KnownBeforehand& known);
 
+/// Warns of tags in the files of --reference and --tag-heights that were never read, which are
+/// usually typos: once for each file.
+void warn_of_unread_tags(const LocalizeArguments& arguments, const ReadOverview& reads,
+                         Diagnostics& diagnostics);
+
 /// Known error of poses of that name ("true", "odometry", "given", …): those of a bag are the
 /// robot's own, whatever the scenario simulates.
 std::optional<PoseErrorModel> pose_error_of(const LocalizeArguments& arguments,

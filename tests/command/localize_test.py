@@ -688,6 +688,20 @@ def the_folder_of_a_run_is_its_tables(context):
 
 
 @case
+def tags_that_were_never_read_are_named_once(context):
+    context.write("known.csv", "tag,x_m,y_m,z_m\none,2,2.5,1\n" + "".join(f"t{i},0,{i},1\n" for i in range(5)))
+    context.write("heights.csv", f"tag,height_m\ntwoo,{HEIGHT}\none,{HEIGHT}\n")
+    words = ("--reference", "known.csv", "--tag-heights", "heights.csv", "--method", "ml", "--pose-sigma", "0")
+    for more in ((), ("--part-reads", "400")):
+        result, _, _ = localize(context, read_rows(TAGS), pose_rows(), *words, *more)
+        said = [line for line in result.err.splitlines() if "never read" in line]
+        check_equal(len(said), 2, f"warnings {more}: {result.err!r}")
+        check_in("known.csv: --reference: 5 of 6 tags were never read, 't0', 't1', 't2' and so on", said[0], "references")
+        check_in("heights.csv: --tag-heights: 1 of 2 tags were never read, 'twoo' (did you mean 'two'?)", said[1],
+                 "heights")
+
+
+@case
 def check_warns_as_localize_does(context):
     _, _, summary = localize(context, read_rows(TAGS), pose_rows(), "--pose-sigma", "0")
     check_near(summary["simulated_s"], 359 / 15, 1e-6, "time from the first read to the last")
