@@ -2,6 +2,7 @@
 #include "apps/tagfield/localize.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <csignal>
@@ -86,8 +87,15 @@ LocalizationOptions options_of(const LocalizeArguments& arguments,
   return options;
 }
 
-std::vector<std::string> order_of(const std::optional<ScenarioWithWorld>& loaded) {
-  return loaded ? tags_of(loaded->scenario) : std::vector<std::string>{};
+/// The scenario's order of the tags; of a run's folder that of the estimates, as for its tables.
+std::vector<std::string> order_of(const LocalizeArguments& arguments,
+                                  const std::optional<ScenarioWithWorld>& loaded,
+                                  const std::vector<TagEstimate>& estimates) {
+  if (loaded) return tags_of(loaded->scenario);
+  std::vector<std::string> tags;
+  if (!is_run(arguments.recording)) return tags;
+  for (const TagEstimate& estimate : estimates) tags.push_back(estimate.tag);
+  return tags;
 }
 
 std::vector<TagOutcome> outcomes_of(const LoadedRecording& recording,
@@ -210,14 +218,16 @@ void stage(const LoadedRecording& recording, const std::optional<ScenarioWithWor
   }
   if (recording.unreported) {
     stage_unreported(*recording.unreported, recording.truth, folder);
+  } else if (!recording.true_distances.empty() && !is_empty(recording.truth)) {
+    stage_true_positions(recording.truth, folder);
+    folder.add_copy(kDistancesFile, recording.true_distances);
   } else if (!is_empty(recording.truth)) {
     stage_truth(recording.truth, folder);
   }
-  if (!loaded) return;
   if (!options.known.heights.of_tag.empty()) {
     folder.add("tag_heights.csv", tag_heights_to_csv(options.known.heights.of_tag));
   }
-  stage_top_view(*loaded, folder);
+  if (loaded) stage_top_view(*loaded, folder);
 }
 
 /// Whether the reads belong to the run in the folder, whose truth and world then apply to them.
@@ -227,14 +237,44 @@ bool is_of_this_run(const LocalizeArguments& arguments, const std::string& out) 
   return of_reads == fs::weakly_canonical(out) && !is_bag(arguments.recording);
 }
 
-/// Keeps the run's files that can't be recreated without a scenario.
-void keep_of_this_run(const std::string& out, const std::optional<ScenarioWithWorld>& loaded,
-                      StagedFolder& folder) {
-  if (loaded) return;
+/// Keeps the run's files that can't be recreated without a scenario and are not staged already.
+void keep_of_this_run(const std::string& out, StagedFolder& folder) {
   for (const char* name : {"top_view.json", "tag_heights.csv"}) {
     const fs::path file = fs::path(out) / name;
-    if (is_there(file)) folder.add(name, read_text_file(file.string()));
+    if (is_there(file) && !is_there(folder.staging() / name)) {
+      folder.add(name, read_text_file(file.string()));
+    }
   }
+}
+
+/// A run's folder states what its localization knew, which is used unless the command line or a
+/// scenario says otherwise.
+LocalizeArguments with_what_run_knew(LocalizeArguments arguments) {
+  if (!is_run(arguments.recording) || !arguments.scenario.empty()) return arguments;
+  const auto file_of_run = [&](const char* name) {
+    const fs::path file = fs::path(arguments.recording) / name;
+    return is_there(file) ? file.string() : std::string();
+  };
+  const bool states_heights = arguments.tag_height_m || !arguments.heights_file.empty() ||
+                              !arguments.height_side.empty() || !arguments.old_height_side.empty();
+  if (!states_heights) arguments.heights_file = file_of_run("tag_heights.csv");
+  if (arguments.references_file.empty()) {
+    arguments.references_file = file_of_run("reference_tags.csv");
+  }
+  return arguments;
+}
+
+/// "known: runs/a/tag_heights.csv, and the truth to judge by": what was taken from a run's folder.
+std::string line_of_run(const LocalizeArguments& arguments, bool has_truth) {
+  if (!is_run(arguments.recording)) return "";
+  std::vector<std::string> used;
+  for (const std::string& file : {arguments.heights_file, arguments.references_file}) {
+    if (!file.empty()) used.push_back(file);
+  }
+  std::string line =
+      used.empty() ? "" : fmt::format("known beforehand: {}\n", fmt::join(used, ", "));
+  if (has_truth) line += fmt::format("judged by: {}/truth\n", arguments.recording);
+  return line;
 }
 
 std::string folder_of(const LocalizeArguments& arguments) {
@@ -323,8 +363,9 @@ LocalizationResult located_with_progress(const LoadedRecording& recording,
                          diagnostics);
 }
 
-int localize(const LocalizeArguments& arguments) {
-  refuse_unknown_method(arguments.method);
+int localize(const LocalizeArguments& asked) {
+  refuse_unknown_method(asked.method);
+  const LocalizeArguments arguments = with_what_run_knew(asked);
   Diagnostics diagnostics;
   if (!arguments.old_height_side.empty()) {
     diagnostics.warn("--height " + arguments.old_height_side + " is --vertical-side " +
@@ -336,7 +377,7 @@ int localize(const LocalizeArguments& arguments) {
       recording_of(arguments, out, references_of(arguments, loaded), diagnostics);
   LocalizationOptions options =
       options_of(arguments, loaded, recording.overview, recording.poses.name);
-  warn_of_unread_tags(arguments, recording.overview, diagnostics);
+  warn_of_unread_tags(asked, recording.overview, diagnostics);
   warn_of_unused_options(arguments, find_method(options.methods, options.method),
                          recording.poses.name, diagnostics);
   const std::optional<Calibration> calibration =
@@ -357,8 +398,8 @@ int localize(const LocalizeArguments& arguments) {
     warn_of_unknown_heights(options.known, recording.overview.tags, diagnostics);
   }
   try_folder(out);
-  const std::vector<std::string> order = order_of(loaded);
   LocalizationResult result = located_with_progress(recording, calibration, options, diagnostics);
+  const std::vector<std::string> order = order_of(arguments, loaded, result.estimates);
   result.estimates = with_all_tags(std::move(result.estimates), recording.truth, order);
   Summary summary = summary_of(arguments, recording, loaded, options, result);
   summary.compared_pose = compared(
@@ -377,8 +418,9 @@ int localize(const LocalizeArguments& arguments) {
   if (in_parts && interrupted()) return kExitInterrupted;
   folder.add("summary.json", to_json(summary));
   const ReadOverview overview = std::move(recording.overview);
+  const std::string of_run = line_of_run(arguments, !is_empty(recording.truth));
   recording = {};  // Frees its memory for the page.
-  if (is_of_this_run(arguments, out)) keep_of_this_run(out, loaded, folder);
+  if (!loaded && is_of_this_run(arguments, out)) keep_of_this_run(out, folder);
   const std::string staging = folder.staging().string();
   stage_report(staging, http::view_of(staging), folder);
   if (in_parts && interrupted()) return kExitInterrupted;
@@ -387,7 +429,8 @@ int localize(const LocalizeArguments& arguments) {
   if (arguments.as_json) {
     fmt::print("{}", to_json(summary));
   } else {
-    fmt::print("{}\n{}page: {}/report.html\n", summary_of_reads(overview), table_of(summary), out);
+    fmt::print("{}\n{}{}page: {}/report.html\n", summary_of_reads(overview), of_run,
+               table_of(summary), out);
   }
   return kExitOk;
 }
@@ -401,7 +444,8 @@ void add_localize_command(CLI::App& app, Action& chosen) {
   command
       ->add_option("READS", arguments->recording,
                    "Rosbag of ROS 1 (RUN.bag), recording of ROS 2 (RUN.mcap, RUN.db3, or "
-                   "rosbag2's folder), the folder of a run, or CSV: "
+                   "rosbag2's folder), the folder of a run, whose tag_heights.csv and "
+                   "reference_tags.csv are known beforehand unless options say otherwise, or CSV: "
                    "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,"
                    "rssi_dbm; of CSV also an archive, RUN.tar.zst or RUN.csv.gz")
       ->required();
@@ -442,7 +486,8 @@ void add_localize_command(CLI::App& app, Action& chosen) {
       "\nPhase must grow with distance (eq. 3 of the paper); negate the phase of readers that do "
       "the\n"
       "opposite. The antenna must have moved along a curve: from a straight path both mirror\n"
-      "images are given. A bag's truth judges the estimates and is not used to make them.");
+      "images are given. The truth of a bag or a run judges the estimates and is not used to make\n"
+      "them.");
   command->callback(
       [arguments, &chosen] { chosen = [arguments] { return localize(*arguments); }; });
 }

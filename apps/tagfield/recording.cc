@@ -254,7 +254,12 @@ LoadedRecording csv_recording(const LocalizeArguments& arguments, const std::str
     recording.poses = {"given", std::move(tables.poses)};
     recording.overview = overview_of(recording.reads);
   }
-  recording.path_length_m = longest_path(recording.poses.poses);
+  if (is_run(arguments.recording)) {
+    recording.truth = truth_that_fits(arguments.recording, diagnostics);
+    const fs::path distances = fs::path(arguments.recording) / kDistancesFile;
+    if (is_there(distances)) recording.true_distances = distances.string();
+  }
+  recording.path_length_m = driven_path(recording.truth, recording.poses.poses);
   const ReadOverview& reads = recording.overview;
   if (reads.count > 0) recording.duration_s = to_seconds(reads.last - reads.first);
   return recording;

@@ -36,6 +36,7 @@ struct LoadedRecording {
   NamedPoses poses;
   NamedPoses other;            ///< For comparison; empty if there are none.
   Truth truth;                 ///< Empty if unknown.
+  std::string true_distances;  ///< Table of them that is not in `truth`, or "".
   double path_length_m = 0.0;
   double duration_s = 0.0;  ///< Of a table, from its first read to the last.
 };
@@ -45,7 +46,7 @@ EachRead reads_of(const LoadedRecording& recording);
 
 /// Reads and poses from CSV. Reads of a table over kTableToReadAnew are not kept unless `keep` is
 /// set. `references`: tags at known positions, which are included in all parts if reads are stored
-/// on the path to `out`. Throws Error if `--poses` is
+/// on the path to `out`. Of a run's folder, the truth is taken, too. Throws Error if `--poses` is
 /// missing, or --part-reads is combined with an archive or third-party tables.
 LoadedRecording csv_recording(const LocalizeArguments& arguments, const std::string& out,
                               const std::set<std::string>& references, bool keep,

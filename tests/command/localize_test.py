@@ -688,6 +688,36 @@ def the_folder_of_a_run_is_its_tables(context):
 
 
 @case
+def the_folder_of_a_run_states_heights_and_truth(context):
+    run = context.folder / "run"
+    context.run_well("run", context.shipped("paper_warehouse"), "--no-page", "--out", run)
+    ours = read_json(run / "summary.json")
+    result = context.run_well("localize", run, "--method", "hyperbola", "--out", "new")
+    check("heights" not in result.err, f"stderr: {result.err!r}")
+    check_in(f"known beforehand: {run}/tag_heights.csv\njudged by: {run}/truth\n", result.out, "what was used")
+    new = read_json(context.folder / "new/summary.json")
+    check_equal(new["located"], ours["located"], "located")
+    check_near(new["error_m"]["mean"], ours["error_m"]["mean"], 1e-7, "mean error")  # Tables round phases.
+    check_near(new["path_length_m"], ours["path_length_m"], 0.02, "path")
+    for name in ("tag_heights.csv", "truth/tags.csv", "truth/distances.csv", "truth/robot_poses.csv"):
+        check_equal((context.folder / "new" / name).read_bytes(), (run / name).read_bytes(), name)
+    # Options take precedence, and the table alone knows nothing.
+    result = context.run_well("localize", run, "--tag-height", "1.5", "--out", "other")
+    check("known beforehand" not in result.out, f"with --tag-height: {result.out!r}")
+    check_equal({float(row["z_m"]) for row in read_csv(context.folder / "other/estimates.csv") if row["z_m"]}, {1.5},
+                "heights with --tag-height")
+    result = context.run_well("localize", run / "reads.csv", "--poses", run / "antenna_poses.csv", "--out", "table")
+    check_in("the tags' heights are not stated", result.err, "the table alone")
+    check("judged by" not in result.out, f"the table alone: {result.out!r}")
+    # In place, nothing of the run is lost.
+    before = {name for name in files_in(run) if not name.startswith(("report", "figures"))}
+    context.run_well("localize", run, "--method", "ml", "--out", run)
+    lost = before - set(files_in(run))
+    check_equal(lost, set(), "files lost in place")
+    check_equal(read_json(run / "summary.json")["method"], "ml", "method in place")
+
+
+@case
 def tags_that_were_never_read_are_named_once(context):
     context.write("known.csv", "tag,x_m,y_m,z_m\none,2,2.5,1\n" + "".join(f"t{i},0,{i},1\n" for i in range(5)))
     context.write("heights.csv", f"tag,height_m\ntwoo,{HEIGHT}\none,{HEIGHT}\n")
