@@ -11,18 +11,19 @@
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/channel/radio_world.h"
-#include "tagfield/epc/epc.h"
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/method.h"
 #include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/internal/antenna_model_yaml.h"
+#include "tagfield/scenario/internal/antenna_yaml.h"
 #include "tagfield/scenario/internal/idle_keys.h"
 #include "tagfield/scenario/internal/localization_yaml.h"
 #include "tagfield/scenario/internal/navigation_yaml.h"
 #include "tagfield/scenario/internal/neighbour_use.h"
 #include "tagfield/scenario/internal/plan_yaml.h"
-#include "tagfield/scenario/internal/tag_table.h"
+#include "tagfield/scenario/internal/robot_yaml.h"
+#include "tagfield/scenario/internal/tags_yaml.h"
 #include "tagfield/scenario/internal/thin_obstacles.h"
 #include "tagfield/scenario/internal/zones_yaml.h"
 #include "tagfield/scenario/placements.h"
@@ -54,44 +55,6 @@ WorldSpec world_of(YamlMap map, bool is_given) {
   return world;
 }
 
-Eigen::Vector2d waypoint_of(const YamlValue& value) {
-  const std::vector<double> n = value.lengths(2, 2);
-  return {n[0], n[1]};
-}
-
-RobotBody robot_body_of(YamlMap map, const RadioWorldOptions& world) {
-  RobotBody body;
-  const YamlValue value = map.at("size", "[length, width, height] in m");
-  const std::vector<double> size = value.lengths(3, 3);
-  if (!(size[0] > 0.0 && size[1] > 0.0 && size[2] > 0.0)) {
-    value.fail("must be three numbers greater than 0");
-  }
-  body.size_m = {size[0], size[1], size[2]};
-  body.material = material_in(world, map.at("material", "the name of a material"));
-  map.finish();
-  return body;
-}
-
-RobotSpec robot_of(YamlMap map, const RadioWorldOptions& world) {
-  RobotSpec robot;
-  robot.location = map.self().location();
-  robot.name = map.at("name").text();
-  const std::vector<double> start = map.at("start", "[x, y, yaw] in m and rad").lengths(3, 3);
-  robot.start = {start[0], start[1], start[2]};
-  robot.drive.wheel_radius_m = map.number("wheel_radius_m", robot.drive.wheel_radius_m, kPositive);
-  robot.drive.track_m = map.number("track_m", robot.drive.track_m, kPositive);
-  robot.style.speed_m_s = map.number("speed_m_s", robot.style.speed_m_s, kPositive);
-  robot.style.max_turn_rad_s = map.number("max_turn_rad_s", robot.style.max_turn_rad_s, kPositive);
-  robot.style.look_ahead_m = map.number("look_ahead_m", robot.style.look_ahead_m, kPositive);
-  for (const YamlValue& waypoint : map.list("waypoints")) {
-    robot.waypoints.push_back(waypoint_of(waypoint));
-  }
-  read_self_driving(map, robot);
-  if (map.has("body")) robot.body = robot_body_of(YamlMap(map.at("body")), world);
-  map.finish();
-  return robot;
-}
-
 PoseBelief belief_of(YamlMap map) {
   PoseBelief belief;
   if (map.has("source")) {
@@ -105,87 +68,6 @@ PoseBelief belief_of(YamlMap map) {
   belief.wheel_noise = map.number("wheel_noise", belief.wheel_noise, kNotNegative);
   map.finish();
   return belief;
-}
-
-Lift lift_of(YamlMap map) {
-  Lift lift;
-  lift.travel_m = map.at("travel_m").number(kPositive);
-  lift.speed_m_s = map.number("speed_m_s", lift.speed_m_s, kPositive);
-  map.finish();
-  return lift;
-}
-
-AntennaSpec antenna_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics) {
-  AntennaSpec antenna;
-  AntennaParameters& parameters = antenna.parameters;
-  antenna.location = map.self().location();
-  parameters.name = map.at("name").text();
-  parameters.reader = map.text("reader", parameters.reader);
-  parameters.rate_hz = map.number("rate_hz", parameters.rate_hz, kPositive);
-  parameters.model = antenna_model_of(map, radio, diagnostics);
-  antenna.on = map.text("on", "");
-  const bool is_recorded = map.has("recorded");
-  if (!is_recorded || map.has("pose"))
-    antenna.X_PA =
-        pose_of(map.at("pose", "[x, y, z] or [x, y, z, roll, pitch, yaw], in m and rad"));
-  if (map.has("lift")) antenna.lift = lift_of(YamlMap(map.at("lift")));
-  if (is_recorded) {
-    antenna.recorded = read_recorded_antenna(resolve_path(map.at("recorded")), parameters.name);
-    antenna.on.clear();
-    antenna.lift = {};
-  }
-  map.finish();
-  try {
-    check(parameters);
-  } catch (const Error& error) {
-    map.self().fail(fmt::format("('{}'): {}", parameters.name, error.what()));
-  }
-  return antenna;
-}
-
-/// Sets the rotation of every pose of the motion.
-void turn(Trajectory& motion, const Eigen::Quaterniond& R_PT) {
-  for (StampedPose& pose : motion) pose.X_WB.rotation = R_PT;
-}
-
-TagSpec tag_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics) {
-  TagSpec tag;
-  tag.location = map.self().location();
-  tag.id = map.at("id").text();
-  tag.on = map.text("on", "");
-  if (map.has("trajectory")) {
-    if (map.has("position")) map.self().fail("has both 'position' and 'trajectory'");
-    tag.motion = trajectory_of(map.at("trajectory"));
-  } else {
-    const YamlValue position = map.at("position", "[x, y, z] in m");
-    tag.motion = {{Time{}, from_translation(position_of(position))}};
-  }
-  if (map.has("rpy"))
-    turn(tag.motion, from_xyz_rpy({0, 0, 0}, position_of(map.at("rpy"))).rotation);
-  tag.model = tag_model_of(map, radio, diagnostics);
-  if (map.has("appears_s")) {
-    tag.appears = time_from_seconds(seconds_of(map.at("appears_s"), kNotNegative));
-  }
-  if (map.has("disappears_s")) {
-    tag.disappears = time_from_seconds(seconds_of(map.at("disappears_s"), kPositive));
-    if (*tag.disappears <= tag.appears) {
-      map.at("disappears_s").fail("must be later than appears_s");
-    }
-  }
-  map.finish();
-  return tag;
-}
-
-/// Requires that IDs written as EPC URIs are valid.
-void require_epcs(const std::vector<TagSpec>& tags) {
-  for (const TagSpec& tag : tags) {
-    if (!is_epc_uri(tag.id)) continue;
-    try {
-      epc_from_uri(tag.id);
-    } catch (const Error& error) {
-      fail(tag.location, error.what());
-    }
-  }
 }
 
 /// Requires that every tag's sensitivity is below the antennas' highest transmit power.
@@ -212,18 +94,7 @@ void read_bodies(YamlMap& map, Scenario& scenario, const RadioDefaults& radio,
   for (const YamlValue& antenna : map.list("antennas")) {
     scenario.antennas.push_back(antenna_of(YamlMap(antenna), radio, diagnostics));
   }
-  for (const YamlValue& tag : map.list("tags")) {
-    scenario.tags.push_back(tag_of(YamlMap(tag), radio, diagnostics));
-  }
-  if (map.has("tag_table")) {
-    const std::vector<TagSpec> more =
-        read_tag_table(resolve_path(map.at("tag_table")), radio.tag, diagnostics);
-    scenario.tags.insert(scenario.tags.end(), more.begin(), more.end());
-  }
-  if (map.has("tag_recording")) {
-    replay_tags(resolve_path(map.at("tag_recording")), scenario.tags);
-  }
-  require_epcs(scenario.tags);
+  scenario.tags = tags_of(map, radio, diagnostics);
   if (!scenario.antennas.empty()) require_power_for_tags(scenario);
 }
 

@@ -37,6 +37,20 @@ double seconds_of(const YamlValue& value, NumberRange range) {
   return seconds;
 }
 
+Presence presence_of(YamlMap& map) {
+  Presence presence;
+  if (map.has("appears_s")) {
+    presence.appears = time_from_seconds(seconds_of(map.at("appears_s"), kNotNegative));
+  }
+  if (map.has("disappears_s")) {
+    presence.disappears = time_from_seconds(seconds_of(map.at("disappears_s"), kPositive));
+    if (*presence.disappears <= presence.appears) {
+      map.at("disappears_s").fail("must be later than appears_s");
+    }
+  }
+  return presence;
+}
+
 Eigen::Vector3d position_of(const YamlValue& value) {
   const std::vector<double> n = value.lengths(3, 3);
   return {n[0], n[1], n[2]};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,14 @@ std::string resolve_path(const YamlValue& value);
 
 /// Seconds that the simulation's clock can hold.
 double seconds_of(const YamlValue& value, NumberRange range);
+
+/// The time in which something is there: the keys `appears_s` and `disappears_s`, the second of
+/// which must be later.
+struct Presence {
+  Time appears{};
+  std::optional<Time> disappears{};  ///< Never if unset.
+};
+Presence presence_of(YamlMap& map);
 
 Eigen::Vector3d position_of(const YamlValue& value);
 

@@ -183,12 +183,9 @@ ObstacleSpec obstacle_of(YamlMap map, const RadioWorldOptions& world) {
     const std::vector<double> n = map.at("position").lengths(2, 2);
     obstacle.motion = {{Time{}, from_translation({n[0], n[1], 0.0})}};
   }
-  if (map.has("appears_s")) {
-    obstacle.appears = time_from_seconds(seconds_of(map.at("appears_s"), kNotNegative));
-  }
-  if (map.has("disappears_s")) {
-    obstacle.disappears = time_from_seconds(seconds_of(map.at("disappears_s"), kPositive));
-  }
+  const Presence presence = presence_of(map);
+  obstacle.appears = presence.appears;
+  obstacle.disappears = presence.disappears;
   if (map.has("material")) {
     BodySpec body;
     body.material = material_in(world, map.at("material"));

@@ -213,6 +213,7 @@ TEST(ObstacleYaml, RefusesWhatMakesNoSense) {
       {"{radius_m: 1, position: [1, 2], yaw: left}", ".yaw"},
       {"{radius_m: 1, position: [1, 2], appears_s: -1}", ".appears_s"},
       {"{radius_m: 1, position: [1, 2], disappears_s: 0}", ".disappears_s"},
+      {"{radius_m: 1, position: [1, 2], appears_s: 3, disappears_s: 2}", ".disappears_s"},
       {"{radius_m: 1, position: [1, 2], colour: red}", "colour"},
       {"3", "obstacles[0]"}};
   for (const auto& [obstacle, says] : table) {
