@@ -37,18 +37,18 @@ double seconds_of(const YamlValue& value, NumberRange range) {
   return seconds;
 }
 
-Presence presence_of(YamlMap& map) {
-  Presence presence;
+Lifetime lifetime_of(YamlMap& map) {
+  Lifetime lifetime;
   if (map.has("appears_s")) {
-    presence.appears = time_from_seconds(seconds_of(map.at("appears_s"), kNotNegative));
+    lifetime.appears = time_from_seconds(seconds_of(map.at("appears_s"), kNotNegative));
   }
   if (map.has("disappears_s")) {
-    presence.disappears = time_from_seconds(seconds_of(map.at("disappears_s"), kPositive));
-    if (*presence.disappears <= presence.appears) {
+    lifetime.disappears = time_from_seconds(seconds_of(map.at("disappears_s"), kPositive));
+    if (*lifetime.disappears <= lifetime.appears) {
       map.at("disappears_s").fail("must be later than appears_s");
     }
   }
-  return presence;
+  return lifetime;
 }
 
 Eigen::Vector3d position_of(const YamlValue& value) {

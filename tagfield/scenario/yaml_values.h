@@ -27,11 +27,11 @@ double seconds_of(const YamlValue& value, NumberRange range);
 
 /// The time in which something is there: the keys `appears_s` and `disappears_s`, the second of
 /// which must be later.
-struct Presence {
+struct Lifetime {
   Time appears{};
   std::optional<Time> disappears{};  ///< Never if unset.
 };
-Presence presence_of(YamlMap& map);
+Lifetime lifetime_of(YamlMap& map);
 
 Eigen::Vector3d position_of(const YamlValue& value);
 

@@ -183,9 +183,9 @@ ObstacleSpec obstacle_of(YamlMap map, const RadioWorldOptions& world) {
     const std::vector<double> n = map.at("position").lengths(2, 2);
     obstacle.motion = {{Time{}, from_translation({n[0], n[1], 0.0})}};
   }
-  const Presence presence = presence_of(map);
-  obstacle.appears = presence.appears;
-  obstacle.disappears = presence.disappears;
+  const Lifetime lifetime = lifetime_of(map);
+  obstacle.appears = lifetime.appears;
+  obstacle.disappears = lifetime.disappears;
   if (map.has("material")) {
     BodySpec body;
     body.material = material_in(world, map.at("material"));

@@ -33,9 +33,9 @@ TagSpec tag_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics
   if (map.has("rpy"))
     turn(tag.motion, from_xyz_rpy({0, 0, 0}, position_of(map.at("rpy"))).rotation);
   tag.model = tag_model_of(map, radio, diagnostics);
-  const Presence presence = presence_of(map);
-  tag.appears = presence.appears;
-  tag.disappears = presence.disappears;
+  const Lifetime lifetime = lifetime_of(map);
+  tag.appears = lifetime.appears;
+  tag.disappears = lifetime.disappears;
   map.finish();
   return tag;
 }
