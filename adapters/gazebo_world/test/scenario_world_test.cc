@@ -131,7 +131,8 @@ world:
 antennas:
   - {name: one, pose: [3, -4, 2], channel_plan: etsi_high, transmit_power_dbm: 27.3, tari_us: 12.5,
      inventory: gen2}
-  - {name: two, pose: [3, 4, 2], model: link_budget, frequency_hz: 910e6, phase_offset_rad: 0.25}
+  - {name: two, pose: [3, 4, 2], reader: other, model: link_budget, frequency_hz: 910e6,
+     phase_offset_rad: 0.25}
   - {name: three, pose: [3, 6, 2], model: paper, range_m: 6.5}
 tags:
   - {id: t, position: [2, 2, 1]}
