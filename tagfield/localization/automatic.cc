@@ -63,8 +63,7 @@ void look_at_brightest(const LocalizationProblem& problem, const std::string& ta
   const HologramPeak there = hologram_peak(problem, tag, samples);
   if (there.residuals_rad.size() == 0) return;
   look.reads_worth_one = there.reads_worth_one;
-  look.has_outliers =
-      has_outliers(outlier_mixture(less_neighbours(there.phases, there.residuals_rad)));
+  look.has_outliers = outliers_at(there).has_value();
 }
 
 Look look_at(const LocalizationProblem& problem, const std::string& tag,

@@ -26,6 +26,7 @@ namespace {
 
 constexpr double kMinSigma = 1e-3;  ///< [rad]
 constexpr double kMaxOutliers = 0.2;
+constexpr double kLikely = 0.5;  ///< Probability from which a read counts as an outlier.
 
 /// Density of wrapped normal noise with a standard deviation well under π.
 Eigen::ArrayXd normal_density(const Eigen::ArrayXd& angles, double sigma) {
@@ -171,17 +172,38 @@ bool has_outliers(const OutlierMixture& mixture) {
          mixture.evidence > std::log(static_cast<double>(mixture.probability.size()));
 }
 
+bool are_scattered(const TagPhases& phases, const Eigen::ArrayXd& probability) {
+  const double share = (probability > kLikely).cast<double>().mean();
+  double successors = 0.0;
+  double pairs = 0.0;
+  for (const TagPhases::Span& span : phases.spans) {
+    for (Eigen::Index i = span.begin + 1; i < span.begin + span.count; ++i) {
+      successors += 1.0;
+      if (probability[i - 1] > kLikely && probability[i] > kLikely) pairs += 1.0;
+    }
+  }
+  const double expected = successors * share * share;
+  return pairs <= expected + 3.0 * std::sqrt(expected) + 1.0;
+}
+
+std::optional<OutlierMixture> outliers_at(const HologramPeak& there) {
+  if (there.residuals_rad.size() == 0) return std::nullopt;
+  OutlierMixture mixture = outlier_mixture(less_neighbours(there.phases, there.residuals_rad));
+  if (!has_outliers(mixture) || !are_scattered(there.phases, mixture.probability)) {
+    return std::nullopt;
+  }
+  return mixture;
+}
+
 std::size_t remove_outliers(const LocalizationProblem& problem, const std::string& tag,
                             SamplesOfTag& samples) {
   const HologramPeak there = hologram_peak(problem, tag, samples);
-  if (there.residuals_rad.size() == 0) return 0;
-  const OutlierMixture mixture =
-      outlier_mixture(less_neighbours(there.phases, there.residuals_rad));
-  if (!has_outliers(mixture)) return 0;
+  const std::optional<OutlierMixture> mixture = outliers_at(there);
+  if (!mixture) return 0;
   std::map<std::string, std::set<double>> stamps;
   for (const TagPhases::Span& span : there.phases.spans) {
     for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
-      if (mixture.probability[i] > 0.5) stamps[span.antenna].insert(there.phases.time_s[i]);
+      if (mixture->probability[i] > kLikely) stamps[span.antenna].insert(there.phases.time_s[i]);
     }
   }
   std::size_t removed = 0;

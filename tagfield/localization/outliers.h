@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "tagfield/localization/height_model.h"
 #include "tagfield/localization/problem.h"
@@ -38,6 +39,15 @@ Eigen::ArrayXd less_neighbours(const TagPhases& phases, const Eigen::ArrayXd& re
 
 /// Whether there are outliers beyond doubt (evidence over ln n), and fewer than one in five.
 bool has_outliers(const OutlierMixture& mixture);
+
+/// Whether the likely outliers come one by one, as arbitrary phases do: not many more follow each
+/// other directly than by chance (three standard deviations of Poisson's law). Those of a pose
+/// error or of a wrong position come in a row, for instance wherever the antenna drives between
+/// stops. `probability` as of outlier_mixture(), in the order of the phases.
+bool are_scattered(const TagPhases& phases, const Eigen::ArrayXd& probability);
+
+/// Residuals at a position, and what makes them outliers; nullopt if none are.
+std::optional<OutlierMixture> outliers_at(const HologramPeak& there);
 
 /// Removes the likely outliers from one tag's samples and returns their number.
 std::size_t remove_outliers(const LocalizationProblem& problem, const std::string& tag,

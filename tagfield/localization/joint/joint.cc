@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <string>
 
 #include "tagfield/localization/joint/internal/joint_state.h"
 #include "tagfield/localization/judgement.h"
@@ -101,34 +105,97 @@ void refuse_other_poses(const LocalizationProblem& problem, double lambda,
   }
 }
 
+/// A solution without its equations, which take as much memory as the reads.
+struct JointSolution {
+  std::map<std::string, TagEstimate> by_tag;
+  std::set<std::string> refused;  ///< Tags of the system that are not located.
+  std::size_t tags = 0;           ///< In the system.
+  std::vector<AntennaPose> corrected_poses;
+  double lambda_m = 0.0;
+};
+
+JointState solved_state(const LocalizationProblem& problem, const std::set<std::string>& without,
+                        int threads) {
+  JointState state = begin_jointly(problem, without, threads);
+  if (state.system.tags.empty()) return state;
+  fit_unwrapped_jointly(state, threads);
+  if (!problem.pose_error) learn_pose_error(state, threads);
+  find_better_positions(state, threads);
+  fit_wrapped_jointly(state, threads);
+  find_alternatives(state, threads);
+  return state;
+}
+
+JointSolution solution_of(const LocalizationProblem& problem, const std::set<std::string>& without,
+                          int threads) {
+  JointState state = solved_state(problem, without, threads);
+  const JointCovariance covariance = covariance_of(state.system, threads);
+  JointSolution solution;
+  solution.by_tag = std::move(state.not_located);
+  solution.tags = state.system.tags.size();
+  for (std::size_t i = 0; i < state.system.tags.size(); ++i) {
+    const JointTag& tag = state.system.tags[i];
+    TagEstimate estimate = estimate_of(state, covariance, i);
+    if (estimate.verdict == Verdict::kNotLocated && !tag.fixed) solution.refused.insert(tag.id);
+    solution.by_tag[tag.id] = std::move(estimate);
+  }
+  solution.corrected_poses = corrected_poses(problem, state.system.knots, state.system.u);
+  if (!state.system.tags.empty()) {
+    solution.lambda_m = 2.0 * longest_cycle(state.system.tags.front().phases);
+  }
+  return solution;
+}
+
+/// Whether no located tag moves by over two expected errors from one solution to another with fewer
+/// tags.
+bool agree(const JointSolution& one, const JointSolution& other) {
+  return std::all_of(one.by_tag.begin(), one.by_tag.end(), [&](const auto& named) {
+    const auto found = other.by_tag.find(named.first);
+    if (named.second.verdict != Verdict::kLocated || found == other.by_tag.end()) return true;
+    if (found->second.candidates.empty()) return true;
+    const Candidate& a = named.second.candidates.front();
+    const Candidate& b = found->second.candidates.front();
+    // The difference of an estimate and the same from fewer reads has the difference of their
+    // variances.
+    const double own = a.expected_error_m * a.expected_error_m;
+    const double more = b.expected_error_m * b.expected_error_m - own;
+    return (a.p_WT - b.p_WT).head<2>().squaredNorm() <= 4.0 * std::max(own, more);
+  });
+}
+
+/// A tag that is refused may have bent the pose error, and with it all others' positions, to suit a
+/// wrong one of its own. If the others move without it, they are right without it; if they don't,
+/// it was of use.
+JointSolution solution_that_stands(const LocalizationProblem& problem, int threads) {
+  constexpr int kMaxRounds = 3;
+  JointSolution best = solution_of(problem, {}, threads);
+  std::set<std::string> without;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    if (best.refused.empty() || best.refused.size() == best.tags) break;
+    without.insert(best.refused.begin(), best.refused.end());
+    JointSolution next = solution_of(problem, without, threads);
+    if (agree(best, next)) break;
+    next.by_tag.merge(best.by_tag);
+    best = std::move(next);
+  }
+  return best;
+}
+
 LocalizationResult locate_jointly(const LocalizationProblem& problem, int threads,
                                   Diagnostics& diagnostics) {
   LocalizationResult result;
   result.method = "joint";
-  JointState state = begin_jointly(problem, threads);
-  if (!state.system.tags.empty()) {
-    fit_unwrapped_jointly(state, threads);
-    if (!problem.pose_error) learn_pose_error(state, threads);
-    find_better_positions(state, threads);
-    fit_wrapped_jointly(state, threads);
-    find_alternatives(state, threads);
-  }
-  const JointCovariance covariance = covariance_of(state.system, threads);
-  std::map<std::string, TagEstimate> by_tag = std::move(state.not_located);
-  for (std::size_t i = 0; i < state.system.tags.size(); ++i) {
-    by_tag[state.system.tags[i].id] = estimate_of(state, covariance, i);
-  }
-  for (auto& [tag, estimate] : by_tag) {
+  JointSolution solution = solution_that_stands(problem, threads);
+  for (auto& [tag, estimate] : solution.by_tag) {
     // Reference tags keep their position, even if their phases could not be unwrapped.
     const auto known = problem.reference_tags.find(tag);
     result.estimates.push_back(known == problem.reference_tags.end()
                                    ? std::move(estimate)
                                    : reference_estimate(tag, known->second));
   }
-  result.corrected_poses = corrected_poses(problem, state.system.knots, state.system.u);
-  if (!problem.pose_error && !state.system.tags.empty()) {
-    const double lambda = 2.0 * longest_cycle(state.system.tags.front().phases);
-    refuse_other_poses(problem, lambda, result, diagnostics);
+  result.corrected_poses = std::move(solution.corrected_poses);
+  if (!problem.pose_error && solution.tags > 0) {
+    refuse_other_poses(problem, solution.lambda_m, result, diagnostics);
   }
   return result;
 }

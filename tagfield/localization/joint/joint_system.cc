@@ -111,17 +111,20 @@ void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag
   number_own_knots(tag);
 }
 
-Eigen::Vector2d displacement_at(const JointSystem& system, const JointTag& tag, Index i) {
+Eigen::Vector3d pose_error_at(const JointSystem& system, const JointTag& tag, Index i) {
   const Index at = tag.knot[i];
-  if (at < 0) return Eigen::Vector2d::Zero();
+  if (at < 0) return Eigen::Vector3d::Zero();
   const PoseKnots& knots = system.knots;
   const double w = tag.knot_weight[i];
   const auto k = static_cast<std::size_t>(at);
-  const Eigen::Vector3d error = (1.0 - w) * (knots.scale[k] * padded(system.u, at, knots.size)) +
+  Eigen::Vector3d error = (1.0 - w) * (knots.scale[k] * padded(system.u, at, knots.size)) +
                                 w * (knots.scale[k + 1] * padded(system.u, at + 1, knots.size));
-  const double yaw = knots.size == 3 ? error.z() : 0.0;
-  const Eigen::Vector2d lever = lever_of(tag, i);
-  return {error.x() - yaw * lever.y(), error.y() + yaw * lever.x()};
+  if (knots.size < 3) error.z() = 0.0;
+  return error;
+}
+
+Eigen::Vector2d displacement_at(const JointSystem& system, const JointTag& tag, Index i) {
+  return displacement_of(pose_error_at(system, tag, i), lever_of(tag, i));
 }
 
 double cost_of(JointSystem& system) {

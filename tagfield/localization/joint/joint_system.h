@@ -59,6 +59,10 @@ inline Eigen::Vector2d lever_of(const JointTag& tag, Eigen::Index i) {
 /// Sets `knot`, `levers` and so on for the tag's phases.
 void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag& tag);
 
+/// Error of the body's believed pose at the tag's i-th read: x, y [m] and yaw [rad], which is 0 if
+/// it is not estimated.
+Eigen::Vector3d pose_error_at(const JointSystem& system, const JointTag& tag, Eigen::Index i);
+
 /// Horizontal error of the antenna's believed position at the tag's i-th read [m].
 Eigen::Vector2d displacement_at(const JointSystem& system, const JointTag& tag, Eigen::Index i);
 

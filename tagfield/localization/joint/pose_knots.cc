@@ -125,9 +125,9 @@ Eigen::Vector3d corrected_place(const LocalizationProblem& problem, const PoseKn
                                 const Eigen::Vector3d& error, const Eigen::Vector3d& p_WA,
                                 Time stamp) {
   const auto X_WR = held_pose_at(problem.tracks.at(chain.reference).X_WA, stamp);
-  const Eigen::Vector3d lever = p_WA - X_WR.translation;
-  return p_WA -
-         Eigen::Vector3d(error.x() - error.z() * lever.y(), error.y() + error.z() * lever.x(), 0.0);
+  Eigen::Vector3d place = p_WA;
+  place.head<2>() -= displacement_of(error, (p_WA - X_WR.translation).head<2>());
+  return place;
 }
 
 }  // namespace

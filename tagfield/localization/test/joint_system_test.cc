@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "tagfield/localization/joint/internal/joint_equations.h"
 #include "tagfield/localization/test/problem_of.h"
 
 namespace tagfield {
@@ -129,6 +131,48 @@ TEST(JointSystem, CovarianceIsTheInverseOfTheCostsCurvature) {
     const Eigen::Matrix2d found =
         covariance.of_tag[static_cast<std::size_t>(i)].topLeftCorner<2, 2>();
     EXPECT_LT((found - expected).norm(), 2e-3 * expected.norm());
+  }
+}
+
+/// The antenna's position from the body's true pose and from the believed one.
+TEST(JointSystem, AYawErrorTurnsTheWholeLever) {
+  const Eigen::Vector2d p_BA(0.3, -0.4);
+  const Eigen::Vector2d p_WB(2.0, 1.0);
+  for (const double yaw_error : {-0.4, -0.01, 0.0, 0.09, 0.3}) {
+    const Eigen::Vector3d error(0.02, -0.05, yaw_error);
+    const Eigen::Vector2d truth = p_WB + Eigen::Rotation2Dd(0.7) * p_BA;
+    const Eigen::Vector2d lever = Eigen::Rotation2Dd(0.7 + yaw_error) * p_BA;
+    const Eigen::Vector2d believed = p_WB + error.head<2>() + lever;
+    EXPECT_LT((displacement_of(error, lever) - (believed - truth)).norm(), 1e-14);
+    EXPECT_LT((true_lever(lever, yaw_error) - Eigen::Rotation2Dd(0.7) * p_BA).norm(), 1e-14);
+  }
+}
+
+/// Half the gradient of the cost, where residuals are not 0 and the yaw error is several degrees.
+TEST(JointSystem, FindsTheMinimumUnderALargeYawError) {
+  made::Hall hall = two_antennas(6, 4);
+  hall.problem.pose_error = PoseErrorModel{0.02, 0.08, 3.0};
+  JointSystem system = system_of(hall, 1.0);
+  made::Rng rng(7);
+  for (double& u : system.u) u = made::normal(rng, 1.0);
+  for (JointTag& tag : system.tags) {
+    for (std::size_t s = 0; s < tag.phases.spans.size(); ++s) {
+      const TagPhases::Span& span = tag.phases.spans[s];
+      for (Index i = span.begin; i < span.begin + span.count; ++i) {
+        tag.phases.value[i] -= read_now(system, tag, s, i).error;
+      }
+    }
+  }
+  minimize(system, 60, 1);
+  const Eigen::VectorXd at = unknowns_of(system);
+  const double least = cost_of(system);
+  for (Index i = 0; i < at.size(); ++i) {
+    for (const double step : {-1e-4, 1e-4}) {
+      Eigen::VectorXd moved = at;
+      moved[i] += step;
+      set_unknowns(system, moved);
+      EXPECT_GT(cost_of(system), least - 1e-9) << i;
+    }
   }
 }
 

@@ -54,6 +54,29 @@ TEST(Outliers, AreNotClaimedOfNoiseAlone) {
   EXPECT_LE(claims, 10);
 }
 
+// Arbitrary phases come at random; what a pose error or a wrong position leaves comes in a row.
+TEST(Outliers, InARowAreNone) {
+  Rng rng(5);
+  TagPhases phases;
+  constexpr int kReads = 1000;
+  phases.spans.resize(2);
+  phases.spans[0].count = phases.spans[1].begin = phases.spans[1].count = kReads / 2;
+  int scattered = 0;
+  int in_a_row = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double share = made::uniform(rng, 0.01, 0.2);
+    Eigen::ArrayXd at_random(kReads);
+    for (double& p : at_random) p = made::uniform(rng, 0.0, 1.0) < share ? 0.9 : 0.1;
+    Eigen::ArrayXd row = Eigen::ArrayXd::Constant(kReads, 0.1);
+    row.segment(100, static_cast<Eigen::Index>(share * kReads)) = 0.9;
+    scattered += are_scattered(phases, at_random) ? 1 : 0;
+    in_a_row += are_scattered(phases, row) ? 1 : 0;
+  }
+  // Three standard deviations: 99.9 % of 200 are within.
+  EXPECT_GE(scattered, 197);
+  EXPECT_EQ(in_a_row, 0);
+}
+
 TEST(Outliers, AreTakenOutAndOthersLeft) {
   Rng rng(3);
   const made::Path path = made::s_curve(10.0, 0.02);

@@ -19,12 +19,11 @@ ChainPart<D> empty_chain(Index knots) {
           Eigen::VectorXd::Zero(D * knots)};
 }
 
-/// Derivative of a read's range with respect to the unknowns of a knot: the antenna moves opposite
-/// to the error.
+/// Derivative of a read's range with respect to the unknowns of a knot, by the antenna's true
+/// lever: the antenna moves opposite to the error.
 template <int D>
-Eigen::Matrix<double, D, 1> by_knot(const JointSystem& system, const JointTag& tag, Index i,
+Eigen::Matrix<double, D, 1> by_knot(const JointSystem& system, const Eigen::Vector2d& lever,
                                     const Eigen::Vector3d& gradient, Index knot) {
-  const Eigen::Vector2d lever = lever_of(tag, i);
   const Eigen::Vector3d by_error(gradient[0], gradient[1],
                                  -gradient[0] * lever.y() + gradient[1] * lever.x());
   const Eigen::Matrix3d& scale = system.knots.scale[static_cast<std::size_t>(knot)];
@@ -40,8 +39,10 @@ void add_to_knots(const JointSystem& system, const JointTag& tag, Index i, int c
   const double w = tag.knot_weight[i];
   using Vector = Eigen::Matrix<double, D, 1>;
   const Eigen::Vector3d& g = now.range.gradient;
-  const Vector a = (1.0 - w) * by_knot<D>(system, tag, i, now.by_antenna_error, tag.knot[i]);
-  const Vector b = w * by_knot<D>(system, tag, i, now.by_antenna_error, tag.knot[i] + 1);
+  Eigen::Vector2d lever = Eigen::Vector2d::Zero();
+  if (D == 3) lever = true_lever(lever_of(tag, i), pose_error_at(system, tag, i).z());
+  const Vector a = (1.0 - w) * by_knot<D>(system, lever, now.by_antenna_error, tag.knot[i]);
+  const Vector b = w * by_knot<D>(system, lever, now.by_antenna_error, tag.knot[i] + 1);
   for (int c = 0; c < part.layout.place; ++c) {
     part.coupling.col(c).template segment<D>(before) += weight * g[c] * a;
     part.coupling.col(c).template segment<D>(after) += weight * g[c] * b;

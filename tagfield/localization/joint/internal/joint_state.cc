@@ -223,9 +223,12 @@ double first_noise(const LocalizationProblem& problem) {
   return of_series.empty() ? usual : std::max(median(std::move(of_series)), 1e-3);
 }
 
-JointState begin_jointly(const LocalizationProblem& problem, int threads) {
+JointState begin_jointly(const LocalizationProblem& problem, const std::set<std::string>& without,
+                         int threads) {
   std::vector<const SamplesByTag::value_type*> tags;
-  for (const auto& entry : problem.samples) tags.push_back(&entry);
+  for (const auto& entry : problem.samples) {
+    if (without.count(entry.first) == 0) tags.push_back(&entry);
+  }
   std::vector<UnwrappedFit> fits(tags.size());
   parallel_for(tags.size(), threads, [&](std::size_t i) {
     fits[i] = fit_unwrapped(problem, tags[i]->first, tags[i]->second);

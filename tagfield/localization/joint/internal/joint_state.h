@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,10 @@ struct JointState {
   std::map<std::string, TagEstimate> not_located;    ///< Tags that cannot be in the system.
 };
 
-/// Fits each tag separately to its unwrapped phase, and sets up the knots of the pose error.
-JointState begin_jointly(const LocalizationProblem& problem, int threads);
+/// Fits each tag but those in `without` separately to its unwrapped phase, and sets up the knots of
+/// the pose error.
+JointState begin_jointly(const LocalizationProblem& problem, const std::set<std::string>& without,
+                         int threads);
 
 /// Phase noise [rad] before any fit, from phase changes between successive reads.
 double first_noise(const LocalizationProblem& problem);
