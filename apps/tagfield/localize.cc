@@ -347,6 +347,18 @@ bool tell_orientation(const std::vector<AntennaPose>& poses) {
                      [](const auto& track) { return is_orientation_known(track.second); });
 }
 
+void warn_of_what_is_missing(const LocalizeArguments& arguments, const LoadedRecording& recording,
+                             Diagnostics& diagnostics) {
+  if (!arguments.circular.empty() && !tell_orientation(recording.poses.poses)) {
+    diagnostics.warn(
+        "--circular has no effect: the poses don't state the antennas' orientation (all are "
+        "unrotated)");
+  }
+  if (recording.overview.count == 0) {
+    diagnostics.warn({arguments.recording, 0}, "no reads: cannot localize anything");
+  }
+}
+
 }  // namespace
 
 LocalizationResult located_with_progress(const LoadedRecording& recording,
@@ -380,19 +392,12 @@ int localize(const LocalizeArguments& asked) {
   warn_of_unread_tags(asked, recording.overview, diagnostics);
   warn_of_unused_options(arguments, find_method(options.methods, options.method),
                          recording.poses.name, diagnostics);
+  warn_of_what_is_missing(arguments, recording, diagnostics);
   const std::optional<Calibration> calibration =
       arguments.calibration.empty() ? std::nullopt
                                     : std::optional(read_calibration(arguments.calibration));
   if (calibration) {
     apply_calibration(*calibration, recording.reads, recording.poses.poses, options.known);
-  }
-  if (!arguments.circular.empty() && !tell_orientation(recording.poses.poses)) {
-    diagnostics.warn(
-        "--circular has no effect: the poses don't state the antennas' orientation (all are "
-        "unrotated)");
-  }
-  if (recording.overview.count == 0) {
-    diagnostics.warn({arguments.recording, 0}, "no reads: cannot localize anything");
   }
   if (!loaded || !options.known.heights.of_tag.empty()) {
     warn_of_unknown_heights(options.known, recording.overview.tags, diagnostics);

@@ -157,13 +157,17 @@ void print_addresses(const std::vector<llrp::LlrpAddress>& readers, const std::s
   std::fflush(stdout);
 }
 
-int serve(ServeArguments arguments) {
+LiveOptions live_options(const ServeArguments& arguments) {
   LiveOptions options;
   options.speed = arguments.speed.value_or(1.0);
   options.is_paused = arguments.is_paused;
   options.threads = default_threads();
   // Readers controlled by LLRP clients start on request.
   options.readers_start = !arguments.llrp;
+  return options;
+}
+
+int serve(ServeArguments arguments) {
   const auto feed = std::make_shared<http::LiveFeed>(start_time("serve", arguments.start, Time{}));
   const auto llrp = llrp_server(arguments);
   Diagnostics diagnostics;
@@ -183,7 +187,7 @@ int serve(ServeArguments arguments) {
       arguments.middleware, spec, start_time("serve", arguments.start, Time{}), outlets);
   const std::shared_ptr<LiveEstimates> estimates = live_estimates(arguments, scenario);
   if (estimates) attach(estimates, outlets);
-  LiveWorld world(scenario, seed, outlets, options);
+  LiveWorld world(scenario, seed, outlets, live_options(arguments));
   world.attach(feed);
   if (middleware.events) world.attach(std::make_shared<EventClock>(middleware.events));
   const Closing closing(llrp.get());
