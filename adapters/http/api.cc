@@ -178,7 +178,7 @@ CoverageQuestion coverage_question(const LiveWorld& world, const Target& target,
   request.tag = scenario.tags.empty() || !scenario.tags.front().model ? default_tag_model()
                                                                       : scenario.tags.front().model;
   request.heights_m = {question.height_m};
-  const double range_m = nominal_range_m(antenna.spec.parameters, kinds_of_tags(scenario));
+  const double range_m = largest_range_m(antenna.spec.parameters, kinds_of_tags(scenario));
   const double cell_m =
       number_in(target, "cell", 0.01, 10.0, std::max(kMinCell_m, fitting_cell(range_m)));
   request.grid = grid_around(X_WA.translation, range_m, cell_m);

@@ -94,6 +94,7 @@ Json describe(const AntennaSpec& antenna,
           {"position_m", to_list(antenna.X_PA.translation)},
           {"frequency_hz", nominal_frequency_hz(parameters)},
           {"range_m", nominal_range_m(parameters, kinds)},
+          {"max_range_m", largest_range_m(parameters, kinds)},
           {"rate_hz", parameters.rate_hz}};
 }
 
@@ -286,10 +287,16 @@ void print_text(const std::string& file, const Json& json, std::size_t warnings)
   }
   fmt::print("antennas: {}\n", json["antennas"].size());
   for (const Json& antenna : json["antennas"]) {
-    fmt::print("  {:<20} {}, {:.1f} MHz, range {:.4g} m, {:.4g} Hz\n",
-               antenna["name"].get<std::string>(), place_of(antenna),
-               antenna["frequency_hz"].get<double>() / 1e6, antenna["range_m"].get<double>(),
-               antenna["rate_hz"].get<double>());
+    const auto range_m = antenna["range_m"].get<double>();
+    const auto most_m = antenna["max_range_m"].get<double>();
+    fmt::print(
+        "  {:<20} {}, {:.1f} MHz, range {:.4g} m{}, {:.4g} Hz\n",
+        antenna["name"].get<std::string>(), place_of(antenna),
+        antenna["frequency_hz"].get<double>() / 1e6, range_m,
+        most_m > range_m
+            ? fmt::format(" in free space, at most {:.4g} m where other paths add up", most_m)
+            : "",
+        antenna["rate_hz"].get<double>());
   }
   fmt::print("tags: {}\n", json["tags"].size());
   for (const Json& tag : json["tags"]) {

@@ -108,6 +108,7 @@ int coverage(const CoverageArguments& arguments) {
   Diagnostics diagnostics;
   ScenarioWithWorld loaded = load(arguments.of_scenario, diagnostics);
   loaded.scenario = as_planned(loaded.scenario, diagnostics);
+  warn_of_effects_left_out(loaded.scenario, diagnostics);
   if (arguments.time_s) {
     leave_out_absent_tags(time_from_seconds(*arguments.time_s), loaded.scenario, diagnostics);
   }

@@ -41,6 +41,7 @@ Coverage covered(const LoadedPtr& loaded, const CoverageArguments& arguments,
   Diagnostics diagnostics;
   ScenarioWithWorld planned = loaded->parts;
   planned.scenario = as_planned(planned.scenario, diagnostics);
+  warn_of_effects_left_out(planned.scenario, diagnostics);
   std::optional<Time> time;
   if (arguments.time_s) {
     time = time_from_seconds(*arguments.time_s);

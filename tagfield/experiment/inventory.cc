@@ -197,18 +197,16 @@ std::vector<ZoneInventory> Tally::by_zone() const {
     for (const std::string& reader : readers_) {
       const bool is_meant =
           std::find(zone.readers.begin(), zone.readers.end(), reader) != zone.readers.end();
-      if (!is_meant && !zone.readers.empty()) row.cross.push_back({reader});
+      if (!is_meant) row.cross.push_back({reader});
     }
     all.push_back(row);
   }
   ZoneInventory elsewhere;
   elsewhere.zone = "elsewhere";
   for (const auto& [id, tag] : tallies_) {
-    ZoneInventory& zone = tag.zone < all.size() ? all[tag.zone] : elsewhere;
-    add_to_zone(tag, zone);
-    // No reader is meant to read there, so no read is a cross-read.
-    if (zone.readers.empty()) zone.crossed = zone.read_by_own = 0.0;
+    add_to_zone(tag, tag.zone < all.size() ? all[tag.zone] : elsewhere);
   }
+  elsewhere.crossed = 0.0;  // Tags outside all zones are meant for whoever reads them.
   if (!all.empty() && elsewhere.tags > 0) all.push_back(elsewhere);
   return all;
 }

@@ -45,10 +45,11 @@ double polarization_loss_db(const AntennaPattern& a, const AntennaPattern& b) {
 }
 
 double range_for_kind(const RadioModel& radio, const TagModel& kind) {
-  if (!radio.effects.polarization || !radio.effects.patterns) return max_range_m(radio, kind);
+  if (!radio.effects.polarization || !radio.effects.patterns)
+    return free_space_range_m(radio, kind);
   TagModel mismatched = kind;
   mismatched.detuning_db += polarization_loss_db(radio.antenna, kind.antenna);
-  return max_range_m(radio, mismatched);
+  return free_space_range_m(radio, mismatched);
 }
 
 }  // namespace
@@ -63,6 +64,12 @@ double nominal_range_m(const AntennaParameters& antenna,
   double longest_m = 0.0;
   for (const auto& kind : kinds) longest_m = std::max(longest_m, range_for_kind(*radio, *kind));
   return longest_m;
+}
+
+double largest_range_m(const AntennaParameters& antenna,
+                       const std::vector<std::shared_ptr<const TagModel>>& kinds) {
+  const RadioModel* const radio = physical(antenna);
+  return nominal_range_m(antenna, kinds) * (radio == nullptr ? 1.0 : max_field_factor(*radio));
 }
 
 double nominal_frequency_hz(const AntennaParameters& antenna) {

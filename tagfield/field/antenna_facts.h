@@ -17,10 +17,14 @@ struct TagModel;
 /// Whether its waves interact with objects in the world.
 bool meets_world(const AntennaParameters& antenna);
 
-/// Its range for drawing [m]: the paper's range; for a physical model, which has no range
-/// parameter, max_range_m() of the most readable of these kinds of tags, or of the default tag if
-/// there are none, less what antennas of unlike polarization lose.
+/// Its range [m]: the paper's range; for a physical model, which has no range parameter,
+/// free_space_range_m() of the most readable of these kinds of tags, or of the default tag if there
+/// are none, less what antennas of unlike polarization lose.
 double nominal_range_m(const AntennaParameters& antenna,
+                       const std::vector<std::shared_ptr<const TagModel>>& kinds = {});
+
+/// The same where all paths add up (max_field_factor()): nothing further away is read.
+double largest_range_m(const AntennaParameters& antenna,
                        const std::vector<std::shared_ptr<const TagModel>>& kinds = {});
 
 /// The carrier frequency, or the first of several [Hz].

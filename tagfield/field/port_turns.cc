@@ -13,7 +13,7 @@ namespace {
 
 const Gen2Reader* inventory_of(const AntennaParameters& antenna) {
   const RadioModel* const radio = physical(antenna);
-  if (radio == nullptr || !radio->gen2 || !radio->effects.inventory) return nullptr;
+  if (radio == nullptr || !takes_inventory(*radio)) return nullptr;
   return &*radio->gen2;
 }
 

@@ -33,8 +33,6 @@ constexpr std::size_t kTagsAtATime = 16;
 constexpr std::size_t kMinTracedTags = 48;
 constexpr std::size_t kMinStraightTags = 512;
 
-bool takes_inventory(const RadioModel& model) { return model.gen2 && model.effects.inventory; }
-
 /// Calls `visit(slot, tag, link)` for each tag in the slots, in empty space.
 template <class Visit>
 void for_each_straight_link(const std::vector<std::uint32_t>& slots, const TagPopulation& tags,

@@ -43,7 +43,7 @@ Scenario without_antennas(const Scenario& scenario) {
 
 bool takes_inventory(const AntennaParameters& antenna) {
   const RadioModel* const model = physical(antenna);
-  return model != nullptr && model->gen2 && model->effects.inventory;
+  return model != nullptr && takes_inventory(*model);
 }
 
 void require_finite(const RigidTransform& X, const std::string& whose) {

@@ -59,7 +59,7 @@ AntennaParameters on_duty(const AntennaParameters& antenna, const ReaderDuty& du
   auto model = std::make_shared<RadioModel>(*mounted);
   model->transmit_power_dbm = own.transmit_power_dbm.value_or(model->transmit_power_dbm);
   model->plan = duty.plan.value_or(model->plan);
-  if (model->gen2 && model->effects.inventory) {
+  if (takes_inventory(*model)) {
     apply_inventory(duty, *model->gen2);
   } else if (asks_for_inventory(duty)) {
     warnings.push_back(fmt::format(

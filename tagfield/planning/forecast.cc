@@ -92,7 +92,7 @@ std::vector<Turn> turns_of(const ForecastRequest& request) {
 
 bool takes_turns(const ForecastPort& port) {
   const RadioModel* const model = physical(port.antenna);
-  return model != nullptr && model->gen2 && model->effects.inventory;
+  return model != nullptr && takes_inventory(*model);
 }
 
 struct Link {

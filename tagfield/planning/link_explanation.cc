@@ -86,7 +86,7 @@ PhysicalLink physical_link(const Scenario& scenario, const LinkQuestion& questio
   const Disturbance disturbance = add_interference(scenario, question, view, tag, of_link, link);
   add_receiver(model, of_link, carrier, disturbance, link);
   add_budget(view, tag, of_link, link);
-  link.takes_inventory = model.gen2 && model.effects.inventory;
+  link.takes_inventory = takes_inventory(model);
   if (link.takes_inventory) {
     link.turn = turn_of(scenario, antenna.name, question.time);
     const std::optional<TagOnAir> heard = on_air(model, of_link, tag, disturbance);

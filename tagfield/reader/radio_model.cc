@@ -79,24 +79,28 @@ std::shared_ptr<const TagModel> default_tag_model() {
   return std::make_shared<const TagModel>(tag);
 }
 
-double max_range_m(const RadioModel& model, const TagModel& tag) {
+double free_space_range_m(const RadioModel& model, const TagModel& tag) {
+  constexpr double kMost = 1e6;
   const double lambda_m = wavelength(model.plan.carriers_hz.front());
   const double radiated_dbm =
       model.transmit_power_dbm - model.cable_loss_db + peak_dbi(model.antenna);
-  // Neighbouring tags may focus waves on a tag: assumed to at most double the field.
-  constexpr double kFocused_db = 6.02;
-  const double tag_dbi =
-      peak_dbi(tag.antenna) - tag.detuning_db + (couples_tags(model) ? kFocused_db : 0.0);
+  const double tag_dbi = peak_dbi(tag.antenna) - tag.detuning_db;
   const double to_tag_db = radiated_dbm + tag_dbi - tag.sensitivity_dbm;
   const double both_ways_db = radiated_dbm + peak_dbi(model.antenna) - model.cable_loss_db +
                               2.0 * tag_dbi + tag.modulation_db - model.hardware.sensitivity_dbm;
   const double loss_db = std::min(to_tag_db, 0.5 * both_ways_db);
-  const double alone_m = lambda_m / (4.0 * kPi) * amplitude_from_db(loss_db);
+  return std::min(kMost, lambda_m / (4.0 * kPi) * amplitude_from_db(loss_db));
+}
+
+double max_field_factor(const RadioModel& model) {
   const bool has_others = (model.effects.reflections && model.reflection_order > 0) ||
                           (model.effects.diffraction && model.diffraction) ||
                           (model.effects.diffuse && model.diffuse_k_db);
-  constexpr double kMost = 1e6;
-  return std::min(kMost, has_others ? 2.0 * alone_m : alone_m);
+  return (has_others ? 2.0 : 1.0) * (couples_tags(model) ? 2.0 : 1.0);
+}
+
+double max_range_m(const RadioModel& model, const TagModel& tag) {
+  return max_field_factor(model) * free_space_range_m(model, tag);
 }
 
 }  // namespace tagfield

@@ -108,6 +108,11 @@ struct RadioModel {
   std::vector<RawParameter> settings{};
 };
 
+/// Whether it reads tags by Gen2's inventory, slot by slot, and not all in range at each update.
+inline bool takes_inventory(const RadioModel& model) {
+  return model.gen2 && model.effects.inventory;
+}
+
 /// Whether signals of other readers disturb it; whether the coupling of tags is simulated.
 inline bool is_disturbed(const RadioModel& model) {
   return model.interference && model.effects.interference;
@@ -141,9 +146,13 @@ void check(const TagModel& tag, Diagnostics& diagnostics);
 /// A half-wave dipole along z with a chip sensitivity of −18 dBm.
 std::shared_ptr<const TagModel> default_tag_model();
 
-/// Upper bound on the distance at which tags with the gain and sensitivity of `tag` can be read
-/// [m]: the free-space range at peak gains, with all paths adding up to twice the direct path's
-/// field.
+/// Distance up to which tags with the gain and sensitivity of `tag` can be read in free space [m],
+/// at peak gains.
+double free_space_range_m(const RadioModel& model, const TagModel& tag);
+/// By how much the field at a tag may exceed that of the direct path: assumed to be at most 2 where
+/// other paths add to it, and twice that where other tags may focus it.
+double max_field_factor(const RadioModel& model);
+/// Upper bound on the distance at which such tags can be read [m]: the product of both.
 double max_range_m(const RadioModel& model, const TagModel& tag);
 
 }  // namespace tagfield

@@ -270,7 +270,8 @@ std::string spoken(const Coverage& coverage, const TagCoverage& tag) {
   if (tag.verdict == TagVerdict::kAlsoOther) {
     return "read by " + readers + "; meant for " + meant + " alone";
   }
-  return "read by " + readers + ", not by " + (meant.empty() ? "any near" : meant);
+  if (meant.empty()) return "read by " + readers + "; meant for no reader";
+  return "read by " + readers + ", not by " + meant;
 }
 
 Figure coverage_figure(const Coverage& coverage, const CoverageLayer& layer,

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tagfield/channel/radio_world.h"
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/recorded_motion.h"
 #include "tagfield/simulator/internal/bodies.h"
 #include "tagfield/simulator/internal/mounts.h"
@@ -141,8 +142,7 @@ void Simulation::update_antenna(const std::string& name) {
   if (found == antennas_.end()) throw Error(fmt::format("there is no antenna called '{}'", name));
   AntennaDue due;
   due.antenna = driver_.antenna(name);
-  // The last instant of the last step, since now_ belongs to the next one.
-  update({due}, std::max(Time{}, now_ - Duration(1)));
+  update({due}, last_instant());
 }
 
 void Simulation::add_obstacle(const ObstacleSpec& obstacle) {
@@ -172,8 +172,28 @@ void Simulation::step() {
     update_at(*due);
   }
   handle_events(now_ - Duration(1));
-  if (finished()) finish();
+  if (!finished()) return;
+  read_to_the_end();
+  finish();
 }
+
+/// Inventories have gone on since their antennas' last updates.
+void Simulation::read_to_the_end() {
+  std::vector<AntennaDue> due;
+  for (const auto& [name, antenna] : antennas_) {
+    const RadioModel* const model = physical(antenna.parameters);
+    if (model == nullptr || !takes_inventory(*model) || !antenna.recorded.empty()) continue;
+    due.emplace_back();
+    due.back().antenna = driver_.antenna(name);
+  }
+  std::sort(due.begin(), due.end(), [](const AntennaDue& a, const AntennaDue& b) {
+    return a.antenna->parameters.name < b.antenna->parameters.name;
+  });
+  if (!due.empty()) update(std::move(due), last_instant());
+}
+
+/// Of the last step, since now_ belongs to the next one.
+Time Simulation::last_instant() const { return std::max(Time{}, now_ - Duration(1)); }
 
 /// Lets tags that are due by `until` appear and disappear.
 void Simulation::handle_events(Time until) {

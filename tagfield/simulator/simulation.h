@@ -113,6 +113,8 @@ class Simulation {
   void begin_step();
   void handle_events(Time until);
   void hold_tag(std::uint32_t number);
+  void read_to_the_end();
+  [[nodiscard]] Time last_instant() const;
   void update_at(Time stamp);
   void update(std::vector<AntennaDue> due, Time stamp);
   void place(AntennaDue& due, Time stamp) const;

@@ -95,6 +95,24 @@ TEST(Inventory, GoesByTheScenariosZones) {
   EXPECT_EQ(inventory.zones[1].zone, "elsewhere");
 }
 
+TEST(Inventory, WhatIsReadInAZoneWithoutReadersIsCrossRead) {
+  Scenario scenario = two_doors();
+  scenario.zones = {
+      {"parked", Eigen::AlignedBox3d(Eigen::Vector3d(8, 0, 0), Eigen::Vector3d(11, 3, 3)), {}, {}}};
+  const InventorySummary inventory = inventory_of(
+      scenario,
+      recorded(scenario, {read(0.1, "w1", "b"), read(0.2, "e1", "b"), read(0.3, "w1", "a")}), 2.0);
+  ASSERT_EQ(inventory.zones.size(), 2U);
+  EXPECT_EQ(inventory.zones[0].tags, 2U);
+  EXPECT_DOUBLE_EQ(inventory.zones[0].read, 1.0);
+  EXPECT_DOUBLE_EQ(inventory.zones[0].read_by_own, 0.0);
+  EXPECT_DOUBLE_EQ(inventory.zones[0].crossed, 1.0);
+  ASSERT_EQ(inventory.zones[0].cross.size(), 2U);
+  EXPECT_DOUBLE_EQ(inventory.zones[0].cross[0].reads, 1.0);
+  EXPECT_EQ(inventory.zones[1].zone, "elsewhere");
+  EXPECT_DOUBLE_EQ(inventory.zones[1].crossed, 0.0);
+}
+
 /// A cart that drives from the east door to the west door with a tag on it, mounted at its origin.
 Scenario cart_between_doors() {
   Scenario scenario = two_doors();

@@ -36,6 +36,21 @@ TEST(AntennaFacts, OfThePapersAntennaAreItsParameters) {
   EXPECT_FALSE(transmit_power_dbm(antenna));
 }
 
+TEST(AntennaFacts, OtherPathsAddToTheLargestRangeOnly) {
+  AntennaParameters antenna = physical_antenna();
+  const double free_m = nominal_range_m(antenna);
+  EXPECT_EQ(largest_range_m(antenna), free_m);
+  RadioModel model = *physical(antenna);
+  model.effects.reflections = true;
+  model.reflection_order = 1;
+  antenna.model = std::make_shared<const RadioModel>(model);
+  EXPECT_EQ(nominal_range_m(antenna), free_m);
+  EXPECT_EQ(largest_range_m(antenna), 2.0 * free_m);
+  model.tag_coupling = model.effects.coupling = true;
+  antenna.model = std::make_shared<const RadioModel>(model);
+  EXPECT_EQ(largest_range_m(antenna), 4.0 * free_m);
+}
+
 TEST(AntennaFacts, OfAPhysicalAntennaComeFromItsLinkBudget) {
   const AntennaParameters antenna = physical_antenna();
   EXPECT_TRUE(meets_world(antenna));

@@ -40,7 +40,7 @@ double reads_a_turn(const RadioModel& model, double rate_hz, std::size_t ports, 
   constexpr int kTurns = 20;
   const double dwell_s = port_dwell_s(model);
   // Without an inventory all ports read simultaneously, each at its updates.
-  if (!model.gen2 || !model.effects.inventory) {
+  if (!takes_inventory(model)) {
     return rate_hz * dwell_s * static_cast<double>(ports);
   }
   TagMemories memories;

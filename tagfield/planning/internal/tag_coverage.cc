@@ -142,6 +142,7 @@ class RunForecast {
     for (std::size_t tag = 0; tag < coverage.tags.size(); ++tag) {
       TagCoverage& of_tag = coverage.tags[tag];
       of_tag.probability = made.probability[tag];
+      of_tag.is_in_zone = zone_at(scenario_.zones, of_tag.p_WT) < scenario_.zones.size();
       of_tag.meant_for = meant_for(of_tag);
       add_readers(made, tag, of_tag);
       of_tag.verdict = verdict_of(of_tag, best_db_[tag]);
@@ -185,8 +186,8 @@ class RunForecast {
       if (read == 0.0) continue;
       const std::string& name = made.groups[group];
       const auto& meant = of_tag.meant_for;
-      const bool is_meant =
-          meant.empty() || std::find(meant.begin(), meant.end(), name) != meant.end();
+      const bool is_meant = (meant.empty() && !of_tag.is_in_zone) ||
+                            std::find(meant.begin(), meant.end(), name) != meant.end();
       of_tag.readers.push_back(
           {name, read / static_cast<double>(made.read_by_group.size()), is_meant});
     }

@@ -126,6 +126,24 @@ TEST(Coverage, TellsWhoReadsTheTags) {
   EXPECT_EQ(coverage.tags[3].verdict, TagVerdict::kNever);
 }
 
+/// As stock parked before a door: whoever reads it reads too far.
+TEST(Coverage, AZoneWithoutReadersIsMeantForNone) {
+  Scenario scenario = hall_with(physical_antenna("door", {0.0, 0.0, 1.0}, isotropic_model()),
+                                physical_tag("parked", {2.0, 0.0, 1.0}));
+  scenario.tags.push_back(physical_tag("outside", {0.0, 2.0, 1.0}));
+  scenario.zones = {
+      {"parked",
+       Eigen::AlignedBox3d(Eigen::Vector3d(1.0, -1.0, 0.0), Eigen::Vector3d(3.0, 1.0, 2.0)),
+       {},
+       {}}};
+  const Coverage coverage = covered(scenario, kAround, 2.0);
+  ASSERT_EQ(coverage.tags.size(), 2U);
+  EXPECT_EQ(coverage.tags[0].verdict, TagVerdict::kWrong);
+  ASSERT_EQ(coverage.tags[0].readers.size(), 1U);
+  EXPECT_FALSE(coverage.tags[0].readers[0].is_meant);
+  EXPECT_EQ(coverage.tags[1].verdict, TagVerdict::kIntended);
+}
+
 TEST(Coverage, LooksFromAllPlacesOfADrive) {
   Scenario scenario = one_gate();
   scenario.duration_s.reset();
@@ -199,6 +217,34 @@ TEST(LocalLink, PlacesAQuarterWavelengthApartAverageAStandingWave) {
   const double a = std::pow(50.0 / 69.0, 2);
   EXPECT_NEAR(least, 1.0 + a - 2.0 * std::sqrt(a) / 3.0, 0.06);
   EXPECT_NEAR(most, 1.0 + a + 2.0 * std::sqrt(a) / 3.0, 0.06);
+}
+
+TEST(Moment, EffectsThatForecastsLeaveOutAreNamed) {
+  const auto warnings = [](const RadioModel& model, const std::string& other_reader) {
+    Scenario scenario = hall_with(physical_antenna("a", {0.0, 0.0, 1.0}, model),
+                                  physical_tag("t", {2.0, 0.0, 1.0}));
+    scenario.tags.push_back(physical_tag("u", {2.0, 0.02, 1.0}));
+    AntennaSpec other = physical_antenna("b", {5.0, 0.0, 1.0}, model);
+    other.parameters.reader = other_reader;
+    scenario.antennas.push_back(other);
+    Diagnostics diagnostics;
+    warn_of_effects_left_out(scenario, diagnostics);
+    return diagnostics.warnings();
+  };
+  RadioModel model = isotropic_model();
+  const std::string own = physical_antenna("a", {}, model).parameters.reader;
+  EXPECT_TRUE(warnings(model, "other").empty());
+  model.interference = model.effects.interference = true;
+  EXPECT_TRUE(warnings(model, own).empty());
+  model.tag_coupling = model.effects.coupling = true;
+  model.effects.inventory = true;
+  model.gen2.emplace();
+  model.gen2->inventory.capture_db = 3.0;
+  ASSERT_EQ(warnings(model, "other").size(), 1U);
+  const std::string said = warnings(model, "other").front();
+  for (const char* const effect : {"interference", "coupling", "capture_db"}) {
+    EXPECT_NE(said.find(effect), std::string::npos) << said;
+  }
 }
 
 TEST(Moment, PlansLaserDrivenRobotsOverTheirGoals) {

@@ -54,6 +54,9 @@ std::string inventory_row(const std::string& name, const std::vector<std::string
 
 constexpr const char* kInventoryEnd = "</tbody></table></div>\n";
 
+/// False for the tags outside all zones. A zone without readers is meant for none.
+bool is_in_zone(const ZoneInventory& zone) { return !zone.readers.empty() || !zone.cross.empty(); }
+
 std::string cross_words(const ZoneInventory& zone) {
   std::string words;
   for (const CrossRead& cross : zone.cross) {
@@ -63,7 +66,7 @@ std::string cross_words(const ZoneInventory& zone) {
                          counted(static_cast<std::size_t>(std::lround(cross.reads)), "read"));
   }
   if (!words.empty()) return words;
-  return zone.readers.empty() ? "meant for no reader" : "none";
+  return is_in_zone(zone) ? "none" : "in no zone";
 }
 
 std::string zones_table(const InventorySummary& inventory) {
@@ -77,7 +80,7 @@ std::string zones_table(const InventorySummary& inventory) {
     html += inventory_row(zone.zone,
                           {grouped(zone.tags), tally(zone.read), percent_of(zone.read, all),
                            zone.readers.empty() ? "–" : percent_of(zone.read_by_own, all),
-                           zone.readers.empty() ? "–" : percent_of(zone.crossed, all)},
+                           is_in_zone(zone) ? percent_of(zone.crossed, all) : "–"},
                           cross_words(zone));
   }
   return html + kInventoryEnd;

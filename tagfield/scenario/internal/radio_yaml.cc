@@ -108,10 +108,11 @@ RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics) {
     if (map.has(key)) defaults.antenna.push_back(raw_parameter(key, map.at(key)));
   }
   if (map.has("tag_profile")) {
-    std::vector<RawParameter> parameters;
-    append_profile(map.at("tag_profile"), {ProfileKind::kTag}, parameters);
     const YamlValue file = map.at("tag_profile");
-    defaults.tag = tag_model_from(file.text(), parameters, file.location(), diagnostics);
+    append_profile(file, {ProfileKind::kTag}, defaults.tag_parameters);
+    defaults.tag_profile = file.text();
+    defaults.tag = tag_model_from(defaults.tag_profile, defaults.tag_parameters, file.location(),
+                                  diagnostics);
   }
   return defaults;
 }
@@ -130,14 +131,17 @@ std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, PropagationMo
 
 std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& defaults,
                                              Diagnostics& diagnostics) {
-  std::vector<RawParameter> parameters;
-  std::string name = "tag";
+  std::vector<RawParameter> own;
+  append_settings(tag, tag_settings(), own);
+  if (own.empty() && !tag.has("profile")) return defaults.tag;
+  std::vector<RawParameter> parameters = defaults.tag_parameters;
+  std::string name = defaults.tag_profile;
   if (tag.has("profile")) {
+    parameters.clear();
     append_profile(tag.at("profile"), {ProfileKind::kTag}, parameters);
     name = tag.at("profile").text();
   }
-  append_settings(tag, tag_settings(), parameters);
-  if (parameters.empty()) return defaults.tag;
+  parameters.insert(parameters.end(), own.begin(), own.end());
   return tag_model_from(name, parameters, tag.self().location(), diagnostics);
 }
 

@@ -24,7 +24,10 @@ struct RadioDefaults {
   /// `diffraction`, `interference`, `tag_coupling`; overridden by an antenna's own.
   std::vector<RawParameter> antenna;
   std::vector<RawParameter> without;  ///< Added to an antenna's own.
-  std::shared_ptr<const TagModel> tag = default_tag_model();
+  std::shared_ptr<const TagModel> tag = default_tag_model();  ///< By `tag_profile`.
+  /// Its name and parameters; a tag's own settings override them.
+  std::string tag_profile = "tag";
+  std::vector<RawParameter> tag_parameters;
 };
 
 /// Takes `model`, `diffraction`, `interference`, `tag_coupling`, `without` and `tag_profile`.
@@ -35,7 +38,7 @@ std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, PropagationMo
                                                  const RadioDefaults& defaults,
                                                  Diagnostics& diagnostics);
 
-/// The tag's kind from its `profile` and settings, or the default.
+/// The tag's kind from its settings and its `profile`, or else the scenario's `tag_profile`.
 std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& defaults,
                                              Diagnostics& diagnostics);
 

@@ -110,6 +110,29 @@ TEST(LoadScenario, ComplainsOfAProfileThatCantBeLookedFor) {
   EXPECT_NE(complained.find(name + "': there is no such file"), std::string::npos) << complained;
 }
 
+/// A key of a tag's own, such as its mounting, changes that and nothing else.
+TEST(LoadScenario, OwnSettingsOfATagOverrideTheProfileOfAll) {
+  const std::string text =
+      "duration_s: 1\nmodel: link_budget\ntag_profile: monza_r6\n"
+      "antennas: [{name: a, pose: [0, 0, 1]}]\n"
+      "tags:\n"
+      "  - {id: as_all, position: [1, 0, 1]}\n"
+      "  - {id: on_metal, position: [2, 0, 1], detuning_db: 6}\n"
+      "  - {id: other, position: [3, 0, 1], profile: higgs_3, detuning_db: 6}\n";
+  const Scenario scenario = load_scenario(write_scenario(text), {});
+  ASSERT_EQ(scenario.tags.size(), 3U);
+  const TagModel& as_all = *scenario.tags[0].model;
+  const TagModel& on_metal = *scenario.tags[1].model;
+  EXPECT_EQ(as_all.sensitivity_dbm, -22.1);
+  EXPECT_EQ(on_metal.sensitivity_dbm, -22.1);
+  EXPECT_EQ(on_metal.modulation_db, as_all.modulation_db);
+  EXPECT_EQ(on_metal.antenna.gain_dbi, as_all.antenna.gain_dbi);
+  EXPECT_EQ(as_all.detuning_db, 0.0);
+  EXPECT_EQ(on_metal.detuning_db, 6.0);
+  EXPECT_EQ(scenario.tags[2].model->sensitivity_dbm, -18.0);
+  EXPECT_EQ(scenario.tags[2].model->detuning_db, 6.0);
+}
+
 TEST(LoadScenario, TakesOverridesWithTheirOwnPlace) {
   const std::string path = write_scenario(kWhole);
   EXPECT_EQ(
