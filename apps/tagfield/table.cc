@@ -256,10 +256,9 @@ std::string effect_lines(const Summary& summary) {
 
 std::string inventory_head(const InventorySummary& inventory) {
   const auto all = static_cast<double>(inventory.tags);
-  std::string text =
-      fmt::format("inventory: {:.6g} of {} tags read in {:.1f} s ({:.1f} %), {:.6g} missed\n",
-                  inventory.read, inventory.tags, inventory.duration_s,
-                  100.0 * share_of(inventory.read, inventory.tags), all - inventory.read);
+  std::string text = fmt::format(
+      "inventory: {:.6g} of {} tags read in {:.1f} s ({}), {:.6g} missed\n", inventory.read,
+      inventory.tags, inventory.duration_s, percent_of(inventory.read, all), all - inventory.read);
   text += "read after:";
   for (const ReachedShare& reached : inventory.reached) {
     text += fmt::format("  {:.0f} % {}", 100.0 * reached.share,

@@ -6,55 +6,53 @@
 namespace tagfield {
 namespace {
 
-/// Adds the weighted `fields` of the run's rows to those of the mean, which has the same rows.
+/// Adds the `fields` of the run's rows to those of the total, which has the same rows.
 template <class Row, class... Fields>
-void add_rows(std::vector<Row>& mean, const std::vector<Row>& run, double weight,
-              Fields... fields) {
-  for (std::size_t i = 0; i < mean.size() && i < run.size(); ++i) {
-    ((mean[i].*fields += weight * (run[i].*fields)), ...);
+void add_rows(std::vector<Row>& total, const std::vector<Row>& run, Fields... fields) {
+  for (std::size_t i = 0; i < total.size() && i < run.size(); ++i) {
+    ((total[i].*fields += run[i].*fields), ...);
   }
 }
 
 template <class Row, class... Fields>
-void clear_rows(std::vector<Row>& rows, Fields... fields) {
-  for (Row& row : rows) ((row.*fields = 0.0), ...);
+void divide_rows(std::vector<Row>& rows, double by, Fields... fields) {
+  for (Row& row : rows) ((row.*fields /= by), ...);
 }
 
-void add_zones(std::vector<ZoneInventory>& mean, const std::vector<ZoneInventory>& run,
-               double weight) {
-  add_rows(mean, run, weight, &ZoneInventory::read, &ZoneInventory::read_by_own,
-           &ZoneInventory::crossed);
-  for (std::size_t i = 0; i < mean.size() && i < run.size(); ++i) {
-    add_rows(mean[i].cross, run[i].cross, weight, &CrossRead::tags, &CrossRead::reads);
+void add_zones(std::vector<ZoneInventory>& total, const std::vector<ZoneInventory>& run) {
+  add_rows(total, run, &ZoneInventory::read, &ZoneInventory::read_by_own, &ZoneInventory::crossed);
+  for (std::size_t i = 0; i < total.size() && i < run.size(); ++i) {
+    add_rows(total[i].cross, run[i].cross, &CrossRead::tags, &CrossRead::reads);
   }
 }
 
-void add(const InventorySummary& run, double weight, InventorySummary& mean) {
-  mean.read += weight * run.read;
-  mean.reads += weight * run.reads;
-  mean.min_read = std::min(mean.min_read, run.min_read);
-  mean.max_read = std::max(mean.max_read, run.max_read);
+void add(const InventorySummary& run, InventorySummary& total) {
+  total.read += run.read;
+  total.reads += run.reads;
+  total.min_read = std::min(total.min_read, run.min_read);
+  total.max_read = std::max(total.max_read, run.max_read);
   for (auto rows : {&InventorySummary::readers, &InventorySummary::antennas}) {
-    add_rows(mean.*rows, run.*rows, weight, &InventoryShare::tags, &InventoryShare::only,
+    add_rows(total.*rows, run.*rows, &InventoryShare::tags, &InventoryShare::only,
              &InventoryShare::reads);
   }
-  add_zones(mean.zones, run.zones, weight);
-  add_rows(mean.levels, run.levels, weight, &LevelInventory::read);
+  add_zones(total.zones, run.zones);
+  add_rows(total.levels, run.levels, &LevelInventory::read);
 }
 
-/// The first run's summary, with all averaged values set to 0.
-InventorySummary cleared(InventorySummary first) {
-  first.read = first.reads = 0.0;
+/// Divides all added values by the number of runs.
+void divide(InventorySummary& total, double runs) {
+  total.read /= runs;
+  total.reads /= runs;
   for (auto rows : {&InventorySummary::readers, &InventorySummary::antennas}) {
-    clear_rows(first.*rows, &InventoryShare::tags, &InventoryShare::only, &InventoryShare::reads);
+    divide_rows(total.*rows, runs, &InventoryShare::tags, &InventoryShare::only,
+                &InventoryShare::reads);
   }
-  clear_rows(first.zones, &ZoneInventory::read, &ZoneInventory::read_by_own,
-             &ZoneInventory::crossed);
-  for (ZoneInventory& zone : first.zones) {
-    clear_rows(zone.cross, &CrossRead::tags, &CrossRead::reads);
+  divide_rows(total.zones, runs, &ZoneInventory::read, &ZoneInventory::read_by_own,
+              &ZoneInventory::crossed);
+  for (ZoneInventory& zone : total.zones) {
+    divide_rows(zone.cross, runs, &CrossRead::tags, &CrossRead::reads);
   }
-  clear_rows(first.levels, &LevelInventory::read);
-  return first;
+  divide_rows(total.levels, runs, &LevelInventory::read);
 }
 
 /// The mean over all runs; none if one of them has none.
@@ -81,13 +79,11 @@ std::optional<double> mean_of_medians(const std::vector<InventorySummary>& runs)
 
 }  // namespace
 
-double share_of(double part, std::size_t tags) {
-  return tags == 0 ? 0.0 : part / static_cast<double>(tags);
-}
-
 InventorySummary mean_of(const std::vector<InventorySummary>& runs) {
-  InventorySummary mean = cleared(runs.front());
-  for (const InventorySummary& run : runs) add(run, 1.0 / static_cast<double>(runs.size()), mean);
+  // Sums of counts are exact, so that where each run read all tags their mean is exactly all.
+  InventorySummary mean = runs.front();
+  for (std::size_t i = 1; i < runs.size(); ++i) add(runs[i], mean);
+  divide(mean, static_cast<double>(runs.size()));
   for (std::size_t i = 0; i < mean.reached.size(); ++i) mean.reached[i].time_s = mean_time(runs, i);
   mean.median_reads = mean_of_medians(runs);
   return mean;

@@ -88,9 +88,6 @@ struct InventorySummary {
   std::vector<InventoryWithout> without;  ///< Each antenna in turn; empty if not requested.
 };
 
-/// Share of all tags that were read; 0 if there are none.
-double share_of(double part, std::size_t tags);
-
 /// The mean of several runs of one scenario; at least one.
 InventorySummary mean_of(const std::vector<InventorySummary>& runs);
 

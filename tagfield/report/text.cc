@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace tagfield {
@@ -176,6 +177,19 @@ std::string grouped(std::size_t number) {
     digits.insert(place, 1, ',');
   }
   return digits;
+}
+
+std::string tally(double number) {
+  const double whole = std::round(number);
+  if (std::abs(number - whole) < 0.005) return grouped(static_cast<std::size_t>(whole));
+  return fmt::format("{:.1f}", number);
+}
+
+std::string percent_of(double part, double all) {
+  if (all <= 0.0) return "–";
+  const double share = part / all;
+  if (share == 0.0 || share == 1.0) return fmt::format("{:.0f} %", 100.0 * share);
+  return fmt::format("{:.1f} %", std::clamp(100.0 * share, 0.1, 99.9));
 }
 
 std::string counted(std::size_t number, const std::string& noun) {

@@ -35,6 +35,13 @@ std::string spoken_length(double length_m);
 /// "7,012".
 std::string grouped(std::size_t number);
 
+/// A count, or a mean of counts ≥ 0: "7,012", "60.6".
+std::string tally(double number);
+
+/// `part` of `all`, both ≥ 0: "89.1 %"; never 100 % if any is missing, nor 0 % if there is any; "–"
+/// of none.
+std::string percent_of(double part, double all);
+
 /// "1 tag", "2 tags".
 std::string counted(std::size_t number, const std::string& noun);
 

@@ -11,21 +11,6 @@
 namespace tagfield {
 namespace {
 
-/// A count, or the mean of several runs.
-std::string tally(double number) {
-  const double whole = std::round(number);
-  if (std::abs(number - whole) < 0.005) return grouped(static_cast<std::size_t>(whole));
-  return fmt::format("{:.1f}", number);
-}
-
-/// Never 100 % if any is missing, nor 0 % if there is any.
-std::string percent_of(double part, double all) {
-  if (all <= 0.0) return "–";
-  const double share = part / all;
-  if (share == 0.0 || share == 1.0) return fmt::format("{:.0f} %", 100.0 * share);
-  return fmt::format("{:.1f} %", std::clamp(100.0 * share, 0.1, 99.9));
-}
-
 std::string lead_number(const std::string& name, const std::string& value, bool lead = false) {
   return fmt::format("<div{}><dt>{}</dt><dd>{}</dd></div>\n", lead ? " class=\"lead\"" : "",
                      escaped(name), escaped(value));

@@ -3,6 +3,7 @@
 
 #include "tagfield/report/internal/inventory_section.h"
 #include "tagfield/report/summary.h"
+#include "tagfield/report/text.h"
 
 namespace tagfield {
 namespace {
@@ -34,6 +35,32 @@ TEST(Inventory, OfSeveralRunsIsTheirMean) {
   EXPECT_NEAR(*mean.reached[0].time_s, 0.6, 1e-12);
   // A share that one run did not reach has no mean time.
   EXPECT_FALSE(mean_of({run_of(6.0, 0.4), run_of(4.0, std::nullopt)}).reached[0].time_s);
+}
+
+TEST(Inventory, OfRunsThatReadAllTagsIsExactlyAll) {
+  // A fifth of 23, added five times, is 23.000000000000004.
+  InventorySummary run;
+  run.tags = 23;
+  run.read = run.min_read = run.max_read = 23.0;
+  run.antennas = {{"a", "door", 23.0, 23.0, 349.0}};
+  run.zones = {{"yard", {"door"}, 23, 23.0, 23.0, 23.0, {{"gate", 23.0, 61.0}}}};
+  run.levels = {{0.5, 0.5, 0, 0.0}, {1.5, 1.5, 23, 23.0}};
+  for (std::size_t runs = 1; runs <= 60; ++runs) {
+    const InventorySummary mean = mean_of(std::vector<InventorySummary>(runs, run));
+    EXPECT_EQ(mean.read, 23.0) << runs;
+    EXPECT_EQ(mean.antennas[0].reads, 349.0) << runs;
+    EXPECT_EQ(mean.zones[0].read_by_own, 23.0) << runs;
+    EXPECT_EQ(mean.zones[0].cross[0].reads, 61.0) << runs;
+    EXPECT_EQ(mean.levels[1].read, 23.0) << runs;
+  }
+  Summary summary;
+  summary.inventory = mean_of(std::vector<InventorySummary>(5, run));
+  EXPECT_EQ(inventory_tables(summary).find("99.9 %"), std::string::npos);
+  // One of 10,000 missed in one of two runs must not round up to all.
+  EXPECT_EQ(percent_of(9999.5, 10000.0), "99.9 %");
+  EXPECT_EQ(percent_of(0.5, 10000.0), "0.1 %");
+  EXPECT_EQ(percent_of(10000.0, 10000.0), "100 %");
+  EXPECT_EQ(percent_of(0.0, 10000.0), "0 %");
 }
 
 TEST(Inventory, IsOnThePage) {
