@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -66,6 +67,16 @@ std::string length_or_none(const std::optional<ErrorStatistics>& error,
   return error ? fmt::format("{:.1f}", 1e3 * (*error).*member) : "-";
 }
 
+/// Without separators of thousands, as all tables in the terminal.
+std::string mean_count(const ComparedRun& run, std::size_t count) {
+  return fmt::format("{:.10g}", std::round(10.0 * per_run(run, count)) / 10.0);
+}
+
+std::string mean_of_all(const ComparedRun& run, std::size_t ComparedRun::*part,
+                        std::size_t ComparedRun::*all) {
+  return fmt::format("{} of {}", mean_count(run, run.*part), mean_count(run, run.*all));
+}
+
 void print(const RunComparison& comparison) {
   const ComparedRun& first = comparison.runs[0];
   const ComparedRun& second = comparison.runs[1];
@@ -73,17 +84,27 @@ void print(const RunComparison& comparison) {
     fmt::print("{:<22} {:>24} {:>24}\n", name, a, b);
   };
   row("", shortened(first.name, 24), shortened(second.name, 24));
-  row("tags located", fmt::format("{} of {}", first.located, first.outcomes),
-      fmt::format("{} of {}", second.located, second.outcomes));
-  row("tags read", fmt::format("{}", first.read), fmt::format("{}", second.read));
-  row("reads", fmt::format("{}", first.reads), fmt::format("{}", second.reads));
+  const auto counts = [&](const std::string& name, std::size_t ComparedRun::*part,
+                          std::size_t ComparedRun::*all) {
+    row(name, mean_of_all(first, part, all), mean_of_all(second, part, all));
+  };
+  if (first.runs > 1 || second.runs > 1) {
+    row("runs (counts are means)", fmt::format("{}", first.runs), fmt::format("{}", second.runs));
+  }
+  if (any_locates(comparison)) {
+    counts("tags located", &ComparedRun::located, &ComparedRun::outcomes);
+  }
+  counts("tags read", &ComparedRun::read, &ComparedRun::tags);
+  row("reads", mean_count(first, first.reads), mean_count(second, second.reads));
   const auto errors = [&](const std::string& name, double ErrorStatistics::*member) {
     row(name, length_or_none(first.error_m, member), length_or_none(second.error_m, member));
   };
-  errors("mean error [mm]", &ErrorStatistics::mean);
-  errors("median error [mm]", &ErrorStatistics::median);
-  errors("95 % below [mm]", &ErrorStatistics::p95);
-  errors("maximum error [mm]", &ErrorStatistics::max);
+  if (any_locates(comparison)) {
+    errors("mean error [mm]", &ErrorStatistics::mean);
+    errors("median error [mm]", &ErrorStatistics::median);
+    errors("95 % below [mm]", &ErrorStatistics::p95);
+    errors("maximum error [mm]", &ErrorStatistics::max);
+  }
   fmt::print("{}\n", comparison_sentence(comparison));
 }
 

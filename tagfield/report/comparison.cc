@@ -7,11 +7,13 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/student.h"
 #include "tagfield/report/internal/error_rows.h"
 #include "tagfield/report/internal/figure_data.h"
+#include "tagfield/report/internal/inventory_section.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {
@@ -43,6 +45,13 @@ std::size_t take_truths(Summary& summary, const std::map<std::string, Eigen::Vec
   return taken;
 }
 
+/// Those that ended, of an interrupted run.
+std::size_t number_of_runs(const Summary& summary) {
+  std::set<std::uint64_t> seeds;
+  for (const TagOutcome& outcome : summary.tags) seeds.insert(outcome.seed);
+  return std::max<std::size_t>(seeds.size(), 1);
+}
+
 ComparedRun whole_of(const Summary& summary, const std::string& name) {
   ComparedRun run;
   run.name = name;
@@ -50,6 +59,9 @@ ComparedRun whole_of(const Summary& summary, const std::string& name) {
   run.method = summary.method;
   run.pose = summary.pose;
   run.seeds = summary.seeds;
+  run.runs = number_of_runs(summary);
+  run.locates = !is_inventory_alone(summary);
+  run.tags = summary.tags.size();
   run.outcomes = count_to_locate(summary);
   run.located = count(summary, Verdict::kLocated);
   for (const TagOutcome& outcome : summary.tags) {
@@ -61,13 +73,25 @@ ComparedRun whole_of(const Summary& summary, const std::string& name) {
   return run;
 }
 
-ComparedOutcome outcome_of(const TagRow& row) {
+/// Whether a tag was read, of a run that locates none.
+std::string read_words(const TagRow& row) {
+  const auto read = std::count_if(row.outcomes.begin(), row.outcomes.end(),
+                                  [](const TagOutcome* one) { return one->reads > 0; });
+  if (row.outcomes.size() > 1) return fmt::format("read in {} of {}", read, row.outcomes.size());
+  return read == 1 ? "read" : "not read";
+}
+
+ComparedOutcome outcome_of(const TagRow& row, bool locates) {
   ComparedOutcome outcome;
   for (const TagOutcome* one : row.outcomes) outcome.reads += one->reads;
   if (!row.errors_m.empty()) {
     double sum = 0.0;
     for (const double error : row.errors_m) sum += error;
     outcome.error_m = sum / static_cast<double>(row.errors_m.size());
+  }
+  if (!locates) {
+    outcome.verdict = read_words(row);
+    return outcome;
   }
   const TagOutcome& first = *row.outcomes.front();
   if (first.reference) {
@@ -100,10 +124,11 @@ std::vector<ComparedTag> tags_of(const std::array<const Summary*, 2>& summaries,
   std::array<std::size_t, 2> alone{};
   std::size_t elsewhere = 0;
   for (std::size_t run = 0; run < 2; ++run) {
+    const bool locates = !is_inventory_alone(*summaries[run]);
     for (const TagRow& row : rows_by_tag(*summaries[run])) {
       ComparedTag& tag = tags[row.tag];
       tag.tag = row.tag;
-      tag.runs[run] = outcome_of(row);
+      tag.runs[run] = outcome_of(row, locates);
       const auto& truth = row.outcomes.front()->truth_m;
       if (!truth) continue;
       if (tag.truth_m && (*tag.truth_m - *truth).norm() > kSamePosition_m) ++elsewhere;
@@ -208,6 +233,14 @@ RunComparison compared(Summary first, const std::string& first_name, Summary sec
         fmt::format("the {} run was interrupted", summary == &first ? "first" : "second"));
   }
   return comparison;
+}
+
+bool any_locates(const RunComparison& comparison) {
+  return comparison.runs[0].locates || comparison.runs[1].locates;
+}
+
+double per_run(const ComparedRun& run, std::size_t count) {
+  return static_cast<double>(count) / static_cast<double>(run.runs);
 }
 
 std::string comparison_to_json(const RunComparison& comparison) {

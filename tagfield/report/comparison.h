@@ -17,8 +17,10 @@ namespace tagfield {
 /// The outcome of a tag in one of the runs, over all its seeds.
 struct ComparedOutcome {
   std::size_t reads = 0;
-  std::string verdict;            ///< In two or three words; "not there" if only in the other run.
-  std::optional<double> error_m;  ///< Mean over the seeds that have one.
+  /// In two or three words: whether it was located, or only read, in a run that locates nothing;
+  /// "not there" if only in the other run.
+  std::string verdict;
+  std::optional<double> error_m;              ///< Mean over the seeds that have one.
   std::optional<Eigen::Vector3d> position_m;  ///< The estimate of the first seed.
 };
 
@@ -35,6 +37,9 @@ struct ComparedRun {
   std::string method;
   std::string pose;  ///< Summary::pose.
   std::vector<std::uint64_t> seeds;
+  std::size_t runs = 1;      ///< One per seed; 1 for a recording.
+  bool locates = true;       ///< False for an inventory alone.
+  std::size_t tags = 0;      ///< Outcomes of all tags, over all seeds.
   std::size_t outcomes = 0;  ///< Of tags to be located, over all seeds.
   std::size_t located = 0;
   std::size_t read = 0;   ///< Outcomes of tags that were read at all.
@@ -66,9 +71,15 @@ struct RunComparison {
 RunComparison compared(Summary first, const std::string& first_name, Summary second,
                        const std::string& second_name);
 
-/// `{runs: [{name, scenario, method, pose, seeds, tags, located, read, reads, path_length_m,
-/// error_m}], error_difference_m: {tags, smaller, larger, mean, low, high} or null, tags: [{tag,
-/// truth_m, runs: [{reads, verdict, error_m, estimate_m}]}], warnings}`.
+/// Whether either run locates tags; if neither does, only their reads can be compared.
+bool any_locates(const RunComparison& comparison);
+
+/// A count over all seeds of `run`, as the mean of its runs.
+double per_run(const ComparedRun& run, std::size_t count);
+
+/// Counts are over all seeds. `{runs: [{name, scenario, method, pose, seeds, tags, located, read,
+/// reads, path_length_m, error_m}], error_difference_m: {tags, smaller, larger, mean, low, high} or
+/// null, tags: [{tag, truth_m, runs: [{reads, verdict, error_m, estimate_m}]}], warnings}`.
 std::string comparison_to_json(const RunComparison& comparison);
 
 /// `tag,first_reads,second_reads,first_verdict,second_verdict,first_error_m,second_error_m,

@@ -219,6 +219,7 @@ Figure places_figure(const RunComparison& comparison, const std::vector<Silhouet
 
 std::vector<Figure> comparison_figures(const RunComparison& comparison,
                                        const std::vector<Silhouette>& geometry) {
+  if (!any_locates(comparison)) return {};
   return {errors_figure(comparison), places_figure(comparison, geometry)};
 }
 

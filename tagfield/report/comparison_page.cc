@@ -21,10 +21,29 @@ std::string signed_length(double length_m) {
   return (length_m < 0.0 ? "−" : "+") + spoken_length(std::abs(length_m));
 }
 
-std::string signed_count(std::size_t first, std::size_t second) {
-  if (second == first) return "0";
-  if (second > first) return "+" + grouped(second - first);
-  return "−" + grouped(first - second);
+std::string signed_count(double first, double second) {
+  const std::string text = tally(std::abs(second - first));
+  if (text == "0") return text;
+  return (second > first ? "+" : "−") + text;
+}
+
+using Count = std::size_t ComparedRun::*;
+
+std::string mean_count(const ComparedRun& run, Count count) {
+  return tally(per_run(run, run.*count));
+}
+
+/// "68 and 60.6 of 68 tags were read", means of several runs.
+std::string read_sentence(const RunComparison& comparison) {
+  const auto& [first, second] = comparison.runs;
+  const std::string all = mean_count(first, &ComparedRun::tags);
+  const std::string others = mean_count(second, &ComparedRun::tags);
+  const std::string of_first = all == others ? "" : fmt::format(" of {}", all);
+  std::string text =
+      fmt::format("{}{} and {} of {} tags were read", mean_count(first, &ComparedRun::read),
+                  of_first, mean_count(second, &ComparedRun::read), others);
+  if (std::max(first.runs, second.runs) > 1) text += ", on average over the seeds";
+  return text + (any_locates(comparison) ? "; no tag has a known error in both runs." : ".");
 }
 
 std::string compared_header(const RunComparison& comparison) {
@@ -46,7 +65,7 @@ std::string compared_numbers(const RunComparison& comparison) {
   for (const ComparedRun& run : comparison.runs) {
     const std::string name = shortened(run.name, 24);
     html += has_errors ? compared_number("Mean error, " + name, spoken_length(run.error_m->mean))
-                       : compared_number("Tags read, " + name, grouped(run.read));
+                       : compared_number("Tags read, " + name, mean_count(run, &ComparedRun::read));
   }
   if (comparison.error) {
     html += compared_number("Mean difference", signed_length(comparison.error->mean_m), true);
@@ -77,6 +96,22 @@ std::string error_cells(const RunComparison& comparison, const std::string& name
   return cells(name, of(first), of(second), difference);
 }
 
+std::string count_cells(const RunComparison& comparison, const std::string& name, Count count) {
+  const auto& [first, second] = comparison.runs;
+  return cells(name, mean_count(first, count), mean_count(second, count),
+               signed_count(per_run(first, first.*count), per_run(second, second.*count)));
+}
+
+/// None if neither run locates tags.
+std::string location_cells(const RunComparison& comparison) {
+  if (!any_locates(comparison)) return "";
+  return count_cells(comparison, "Tags located", &ComparedRun::located) +
+         error_cells(comparison, "Mean error", &ErrorStatistics::mean) +
+         error_cells(comparison, "Median error", &ErrorStatistics::median) +
+         error_cells(comparison, "95 % of errors below", &ErrorStatistics::p95) +
+         error_cells(comparison, "Maximum error", &ErrorStatistics::max);
+}
+
 std::string seeds_of(const ComparedRun& run) {
   if (run.seeds.empty()) return "–";
   if (run.seeds.size() == 1) return fmt::format("{}", run.seeds.front());
@@ -96,16 +131,9 @@ std::string whole_table(const RunComparison& comparison) {
       escaped(shortened(first.name, 40)) + "</th><th scope=\"col\">" +
       escaped(shortened(second.name, 40)) +
       "</th><th scope=\"col\">Difference</th></tr></thead>\n<tbody>\n";
-  html += cells("Tags located", grouped(first.located), grouped(second.located),
-                signed_count(first.located, second.located));
-  html += error_cells(comparison, "Mean error", &ErrorStatistics::mean);
-  html += error_cells(comparison, "Median error", &ErrorStatistics::median);
-  html += error_cells(comparison, "95 % of errors below", &ErrorStatistics::p95);
-  html += error_cells(comparison, "Maximum error", &ErrorStatistics::max);
-  html += cells("Tags read", grouped(first.read), grouped(second.read),
-                signed_count(first.read, second.read));
-  html += cells("Reads", grouped(first.reads), grouped(second.reads),
-                signed_count(first.reads, second.reads));
+  html += location_cells(comparison);
+  html += count_cells(comparison, "Tags read", &ComparedRun::read);
+  html += count_cells(comparison, "Reads", &ComparedRun::reads);
   html += cells("Path of the antenna", spoken_length(first.path_length_m),
                 spoken_length(second.path_length_m),
                 signed_length(second.path_length_m - first.path_length_m));
@@ -122,31 +150,44 @@ std::string millimetres_or_none(const std::optional<double>& length_m) {
   return length_m ? fmt::format("{:.1f}", 1e3 * *length_m) : "–";
 }
 
-std::string tag_cells(const ComparedTag& tag) {
+std::string tag_errors(const ComparedTag& tag) {
   const auto& [first, second] = tag.runs;
   std::string difference = "–";
   if (first.error_m && second.error_m) {
     const double mm = 1e3 * (*second.error_m - *first.error_m);
     difference = fmt::format("{}{:.1f}", mm < 0.0 ? "−" : "+", std::abs(mm));
   }
+  return fmt::format("<td>{}</td><td>{}</td><td>{}</td>", millimetres_or_none(first.error_m),
+                     millimetres_or_none(second.error_m), difference);
+}
+
+std::string tag_cells(const RunComparison& comparison, const ComparedTag& tag) {
+  const auto& [first, second] = tag.runs;
   return fmt::format(
-      "<tr><th scope=\"row\" title=\"{}\"><bdi>{}</bdi></th><td>{}</td><td>{}</td><td>{}</td>"
+      "<tr><th scope=\"row\" title=\"{}\"><bdi>{}</bdi></th>{}"
       "<td>{}</td><td>{}</td><td class=\"words\">{}</td><td class=\"words\">{}</td></tr>\n",
-      escaped(tag.tag), escaped(shortened(tag.tag, 28)), millimetres_or_none(first.error_m),
-      millimetres_or_none(second.error_m), difference, grouped(first.reads), grouped(second.reads),
-      escaped(first.verdict), escaped(second.verdict));
+      escaped(tag.tag), escaped(shortened(tag.tag, 28)),
+      any_locates(comparison) ? tag_errors(tag) : "",
+      tally(per_run(comparison.runs[0], first.reads)),
+      tally(per_run(comparison.runs[1], second.reads)), escaped(first.verdict),
+      escaped(second.verdict));
 }
 
 std::string tags_table(const RunComparison& comparison) {
   std::string html =
       "<h2>Tags</h2>\n<div class=\"table\" role=\"region\" aria-label=\"Tags\" tabindex=\"0\">"
-      "<table>\n<thead><tr><th scope=\"col\">Tag</th><th scope=\"col\">First<br>error [mm]</th>"
-      "<th scope=\"col\">Second<br>error [mm]</th><th scope=\"col\">Difference<br>[mm]</th>"
+      "<table>\n<thead><tr><th scope=\"col\">Tag</th>";
+  if (any_locates(comparison)) {
+    html +=
+        "<th scope=\"col\">First<br>error [mm]</th><th scope=\"col\">Second<br>error [mm]</th>"
+        "<th scope=\"col\">Difference<br>[mm]</th>";
+  }
+  html +=
       "<th scope=\"col\">First<br>reads</th><th scope=\"col\">Second<br>reads</th>"
       "<th scope=\"col\" class=\"words\">First</th><th scope=\"col\" class=\"words\">Second</th>"
       "</tr></thead>\n<tbody>\n";
   const std::size_t most = std::min(comparison.tags.size(), kMaxTableRows);
-  for (std::size_t i = 0; i < most; ++i) html += tag_cells(comparison.tags[i]);
+  for (std::size_t i = 0; i < most; ++i) html += tag_cells(comparison, comparison.tags[i]);
   html += "</tbody></table></div>\n";
   if (most < comparison.tags.size()) {
     html += fmt::format("<p class=\"muted\">The first {} of {} tags; compare.csv holds all.</p>\n",
@@ -167,12 +208,8 @@ std::string warnings_note(const RunComparison& comparison) {
 }  // namespace
 
 std::string comparison_sentence(const RunComparison& comparison) {
-  const auto& [first, second] = comparison.runs;
   const auto& error = comparison.error;
-  if (!error) {
-    return fmt::format("{} and {} of {} tags were read; no tag has a known error in both runs.",
-                       grouped(first.read), grouped(second.read), grouped(comparison.tags.size()));
-  }
+  if (!error) return read_sentence(comparison);
   std::string text = fmt::format(
       "Of {} that both located, the second run has the smaller error for {} and the larger for {}. "
       "Its errors differ by {} on average",
@@ -197,8 +234,9 @@ std::string comparison_page(const RunComparison& comparison, const std::vector<F
          warnings_note(comparison) + "<div class=\"figures\">\n" + drawn + "</div>\n" + missing +
          whole_table(comparison) + tags_table(comparison) +
          "</main>\n<footer>\n<p>Made by Tagfield; compare.csv and compare.json are beside this "
-         "page, figures/ holds the figures. Differences are the second run minus the first; the "
-         "confidence assumes that tags are independent of each other, which pose errors of the "
+         "page, figures/ holds the figures. Differences are the second run minus the first; of "
+         "several seeds, counts are means; the confidence assumes that tags are independent of "
+         "each other, which pose errors of the "
          "antenna make less true.</p>\n</footer>\n" +
          script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +
          "</body>\n</html>\n";

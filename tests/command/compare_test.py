@@ -56,6 +56,24 @@ def of_a_run_with_itself_nothing_differs(context):
 
 
 @case
+def inventories_are_compared_by_the_reads_of_a_run(context):
+    arguments = ("--seeds", "3", "--no-page", "--set", "localization.method=none")
+    folders = [context.simulate(SCENARIO, *arguments, name="first"),
+               context.simulate(SCENARIO, *arguments, "--set", "antennas.*.range_m=1.5",
+                                name="second")]
+    out = context.folder / "inventories"
+    printed = context.run_well("compare", *folders, "--out", out).out
+    check("located" not in printed and "error" not in printed, printed)
+    words = next(line for line in printed.splitlines() if line.startswith("tags read")).split()
+    inventories = [read_json(folder / "summary.json")["inventory"] for folder in folders]
+    check(inventories[0]["reads"] > inventories[1]["reads"], f"reads: {inventories}")
+    for i, inventory in enumerate(inventories):
+        check_near(float(words[2 + 3 * i]), inventory["read"], 0.05, f"tags read of {words}")
+        check_equal(int(words[4 + 3 * i]), inventory["tags"], f"tags of {words}")
+    check("Tags located" not in (out / "compare.html").read_text(), "page")
+
+
+@case
 def what_cannot_be_compared_is_one_line(context):
     run = context.simulate(SCENARIO, "--no-page")
     strangers = context.write("strangers.yaml", "name: strangers\nduration_s: 1\n"

@@ -78,6 +78,53 @@ TEST(RunComparison, TakesTheMeanOverSeeds) {
   EXPECT_FALSE(comparison.error->interval_m);
 }
 
+/// An inventory of tags "a", "b", … with their reads by seed.
+Summary inventory_run(const std::vector<std::vector<std::size_t>>& reads) {
+  Summary summary = run_of({}, {});
+  summary.method = "none";
+  summary.inventory.emplace();
+  for (std::size_t seed = 1; seed <= reads.front().size(); ++seed) {
+    summary.seeds.push_back(seed);
+    for (std::size_t i = 0; i < reads.size(); ++i) {
+      TagOutcome tag = located(std::string(1, static_cast<char>('a' + i)), 0, std::nullopt, seed);
+      tag.reads = reads[i][seed - 1];
+      summary.tags.push_back(tag);
+    }
+  }
+  return summary;
+}
+
+TEST(RunComparison, OfInventoriesIsOfReadsAlone) {
+  const Summary all = inventory_run({{10, 20}, {5, 4}, {1, 1}});
+  const Summary fewer = inventory_run({{10, 3}, {0, 0}, {0, 2}});
+  const RunComparison several = compared(all, "a", fewer, "b");
+  // Two of three tags were read in one run and one in the other.
+  EXPECT_EQ(comparison_sentence(several),
+            "3 and 1.5 of 3 tags were read, on average over the seeds.");
+  EXPECT_EQ(several.tags[0].runs[1].verdict, "read in 2 of 2");
+  EXPECT_EQ(several.tags[2].runs[1].verdict, "read in 1 of 2");
+  const std::string page = comparison_page(several, comparison_figures(several, {}));
+  EXPECT_EQ(unbalanced_tag(page), "");
+  for (const char* word : {"ocated", "error [mm]", "ean error", "known error"}) {
+    EXPECT_EQ(page.find(word), std::string::npos) << word;
+  }
+  EXPECT_NE(page.find("<td>20.5</td><td>7.5</td><td>−13</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>15</td><td>6.5</td>"), std::string::npos);
+
+  const RunComparison one =
+      compared(inventory_run({{9}, {4}}), "a", inventory_run({{0}, {4}}), "b");
+  EXPECT_EQ(comparison_sentence(one), "2 and 1 of 2 tags were read.");
+  EXPECT_EQ(one.tags[0].runs[0].verdict, "read");
+  EXPECT_EQ(one.tags[0].runs[1].verdict, "not read");
+  const RunComparison unequal = compared(inventory_run({{9}, {4}}), "a", inventory_run({{0}}), "b");
+  EXPECT_EQ(comparison_sentence(unequal), "2 of 2 and 0 of 1 tags were read.");
+  // Beside a run that locates, errors stay.
+  const RunComparison mixed =
+      compared(inventory_run({{9}}), "a", run_of({located("a", 0, 0.01)}), "b");
+  EXPECT_EQ(mixed.tags[0].runs[1].verdict, "located");
+  EXPECT_NE(comparison_page(mixed, {}).find("Tags located"), std::string::npos);
+}
+
 TEST(RunComparison, WarnsOfWhatCannotBeCompared) {
   const Summary first = run_of({located("a", 0, 0.01), located("b", 1, 0.01)});
   Summary second = run_of({located("b", 1.5, 0.01), located("c", 2, 0.01)}, {2});
