@@ -4,16 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "tagfield/report/axes.h"
 #include "tagfield/report/internal/color_bands.h"
 #include "tagfield/report/internal/figure_data.h"
+#include "tagfield/report/internal/short_names.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {
 namespace {
 
-constexpr double kNamesWidth = 150.0;
+constexpr std::size_t kLongestName = 26;
 
 /// Antennas grouped by reader, both in their own order.
 std::vector<const InventoryShare*> by_reader(const InventorySummary& inventory) {
@@ -32,12 +34,39 @@ std::size_t number_of_reader(const InventorySummary& inventory, const std::strin
   return number;
 }
 
-void draw_antenna(Svg& svg, const Axes& axes, const InventoryShare& antenna, double y,
-                  const std::string& color) {
+/// The antennas' names, short enough for the figure.
+std::vector<std::string> names_of(const std::vector<const InventoryShare*>& rows) {
+  std::vector<std::string> names;
+  for (const InventoryShare* const row : rows) names.push_back(row->name);
+  return distinct_names(names, kLongestName);
+}
+
+/// Width of a name, at least, in a wide sans-serif such as DejaVu Sans: no letter may be cut off.
+double room_for(const std::string& name) {
+  double letters = 0.0;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xC0U) == 0x80U) continue;  // Inside a character of several bytes.
+    const bool is_widest = std::string_view("WMmw@%").find(c) != std::string_view::npos;
+    const bool is_wide = byte >= 0x80U || (c >= 'A' && c <= 'Z');
+    letters += is_widest ? 1.0 : is_wide ? 0.8 : 0.64;
+  }
+  return letters * kFontSize;
+}
+
+/// The room for names before the bars.
+double names_width(const std::vector<std::string>& names) {
+  double most = 0.0;
+  for (const std::string& name : names) most = std::max(most, room_for(name));
+  return std::max(most + 10.0, 60.0);
+}
+
+void draw_antenna(Svg& svg, const Axes& axes, const InventoryShare& antenna,
+                  const std::string& name, double y, const std::string& color) {
   const double zero = place_on(axes.x, 0.0);
   const double all = place_on(axes.x, antenna.tags);
   const double own = place_on(axes.x, antenna.only);
-  add_text(svg, {kNamesWidth - 8.0, y + 5.0}, shortened(antenna.name, 18), Anchor::kEnd);
+  add_short_name(svg, {axes.x.from - 8.0, y + 5.0}, name, antenna.name, Anchor::kEnd);
   const std::string said = fmt::format("{} ({}): {:.0f} tags, {:.0f} by no other", antenna.name,
                                        antenna.reader, antenna.tags, antenna.only);
   add_rectangle(svg, {zero, y - 7.0}, {std::max(all - zero, 1.0), 14.0}, filled(color, 0.4),
@@ -86,14 +115,16 @@ Figure inventory_antennas_figure(const RunFiles& run) {
   const std::size_t shown = std::min(rows.size(), kMaxRows);
   const double height = row_height(shown);
   Axes axes{round_scale(0.0, most, 5), {}};
-  axes.x.from = kNamesWidth;
+  const std::vector<std::string> names = names_of(rows);
+  axes.x.from = names_width(names);
   axes.x.to = kDrawingWidth - 24.0;
   axes.y.to = 8.0;
   axes.y.from = axes.y.to + height * static_cast<double>(shown);
   figure.svg.height = axes.y.from + 48.0;
   draw_x_axis(figure.svg, axes, "tags");
   for (std::size_t i = 0; i < shown; ++i) {
-    draw_antenna(figure.svg, axes, *rows[i], axes.y.to + height * (static_cast<double>(i) + 0.5),
+    draw_antenna(figure.svg, axes, *rows[i], names[i],
+                 axes.y.to + height * (static_cast<double>(i) + 0.5),
                  color_of_kind(number_of_reader(inventory, rows[i]->reader)));
   }
   figure.data = "antenna,reader,tags,only_by_it,reads\n";

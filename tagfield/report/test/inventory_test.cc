@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "tagfield/report/internal/inventory_figures.h"
 #include "tagfield/report/internal/inventory_section.h"
+#include "tagfield/report/run_files.h"
 #include "tagfield/report/summary.h"
+#include "tagfield/report/svg.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {
@@ -78,6 +81,27 @@ TEST(Inventory, IsOnThePage) {
   EXPECT_NE(tables.find("yard: 1 tag (3 reads)"), std::string::npos);
   EXPECT_NE(tables.find("1.50 m"), std::string::npos);
   EXPECT_EQ(tables.find("<th scope=\"col\"></th>"), std::string::npos);
+}
+
+TEST(Inventory, NamesOfAntennasAreNotCutOff) {
+  RunFiles run;
+  run.summary.inventory = run_of(9.0, 0.5);
+  const std::vector<std::string> names = {"dock_door_north_left_upper_port_1",
+                                          "dock_door_north_right_upper_port_1",
+                                          "WWWWWWWWWWWWWWWWWW"};
+  run.summary.inventory->antennas.clear();
+  for (const std::string& name : names) {
+    run.summary.inventory->antennas.push_back({name, "door", 9.0, 3.0, 36.0});
+  }
+  const std::string body = inventory_antennas_figure(run).svg.body;
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NE(body.find("<title>" + names[i] + "</title>"), std::string::npos) << names[i];
+  }
+  // No letter is wider than the font is high, so the widest name has room to the left.
+  const std::size_t place = body.find("text-anchor=\"end\"");
+  ASSERT_NE(place, std::string::npos);
+  const std::size_t x = body.rfind("x=\"", place);
+  EXPECT_GE(std::stod(body.substr(x + 3)), kFontSize * 18.0);
 }
 
 TEST(Inventory, ComesBackFromItsJson) {
