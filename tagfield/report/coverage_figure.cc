@@ -10,6 +10,7 @@
 #include "tagfield/report/internal/figure_data.h"
 #include "tagfield/report/internal/map_outline.h"
 #include "tagfield/report/internal/map_view.h"
+#include "tagfield/report/internal/short_names.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {
@@ -71,13 +72,17 @@ void draw_antenna_marks(Svg& svg, MapView& map, const Coverage& coverage) {
   }
 }
 
-/// All marks come before the first name, so that no name covers another antenna.
-void draw_antennas(Svg& svg, MapView& map, const Coverage& coverage) {
-  draw_antenna_marks(svg, map, coverage);
+void draw_antenna_names(Svg& svg, MapView& map, const Coverage& coverage) {
   for (const CoverageAntenna& antenna : coverage.antennas) {
     if (antenna.places_W.empty()) continue;
     draw_label(svg, map, on_map(map, antenna.places_W.front()), shortened(antenna.name, 18));
   }
+}
+
+/// All marks come before the first name, so that no name covers another antenna.
+void draw_antennas(Svg& svg, MapView& map, const Coverage& coverage) {
+  draw_antenna_marks(svg, map, coverage);
+  draw_antenna_names(svg, map, coverage);
 }
 
 /// The background of all maps.
@@ -167,36 +172,103 @@ void draw_quantity(Figure& figure, const Coverage& coverage, const CoverageLayer
   draw_antennas(figure.svg, map, coverage);
 }
 
-/// With more antennas than colours, they share colours.
-constexpr int kMaxKinds = 100;
+/// Of more antennas, the others share colours.
+constexpr std::size_t kMaxKinds = 100;
 
-void draw_best(Figure& figure, const Coverage& coverage, const CoverageLayer& layer,
-               const std::vector<Silhouette>& top_view) {
-  std::vector<std::string> colors;
-  std::vector<std::string> words;
+/// "12: " if so many antennas need numbers beside their colours.
+std::string number_of_kind(std::size_t antenna, std::size_t count) {
+  return count > kPlainKinds ? fmt::format("{}: ", antenna + 1) : "";
+}
+
+/// Draws the antennas' colours and names; returns the height.
+double draw_kinds(Svg& svg, const std::vector<std::string>& names) {
+  const std::vector<std::string> shown = distinct_names(names, 18);
   double x = 2.0;
   double y = 2.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(coverage.antennas.size(), kMaxKinds); ++i) {
-    colors.push_back(color_of_kind(i));
-    const std::string name = shortened(coverage.antennas[i].name, 18);
-    const double width = 40.0 + text_width(name);
-    words.push_back(clean_text(coverage.antennas[i].name));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string number = number_of_kind(i, names.size());
+    const double width = 40.0 + text_width(number + shown[i]);
     if (x > 2.0 && x + width > kDrawingWidth) {
       x = 2.0;
       y += 22.0;
     }
-    add_rectangle(figure.svg, {x, y}, {15.0, 15.0}, filled(colors.back(), 1.0));
-    add_text(figure.svg, {x + 21.0, y + 12.0}, name, Anchor::kStart);
+    add_rectangle(svg, {x, y}, {15.0, 15.0}, filled(color_of_kind(i), 1.0));
+    add_short_name(svg, {x + 21.0, y + 12.0}, number + shown[i], number + names[i], Anchor::kStart);
     x += width;
   }
-  MapView map = begin_map(figure, coverage, y + 24.0);
+  return y + 24.0;
+}
+
+/// Distance of each cell, in cells, from the nearest one of another kind, in the metric of the
+/// greater of both coordinates.
+std::vector<int> depths_of(const OccupancyGrid& cells) {
+  std::vector<int> depths(cells.cells.size());
+  const auto of_neighbour = [&](int x, int y, int dx, int dy) {
+    const bool is_alike =
+        cells.contains(x + dx, y + dy) && cells.at(x + dx, y + dy) == cells.at(x, y);
+    return is_alike ? depths[cells.index(x + dx, y + dy)] : 0;
+  };
+  // One pass from each corner; `back` are the neighbours that it has met before.
+  const auto visit = [&](int x, int y, int back) {
+    return 1 + std::min({of_neighbour(x, y, back, 0), of_neighbour(x, y, -1, back),
+                         of_neighbour(x, y, 0, back), of_neighbour(x, y, 1, back)});
+  };
+  for (int y = 0; y < cells.height; ++y) {
+    for (int x = 0; x < cells.width; ++x) depths[cells.index(x, y)] = visit(x, y, -1);
+  }
+  for (int y = cells.height - 1; y >= 0; --y) {
+    for (int x = cells.width - 1; x >= 0; --x) {
+      int& depth = depths[cells.index(x, y)];
+      depth = std::min(depth, visit(x, y, 1));
+    }
+  }
+  return depths;
+}
+
+/// Writes each antenna's number where its area is widest.
+void draw_numbers(Svg& svg, MapView& map, const OccupancyGrid& cells, std::size_t count) {
+  if (count <= kPlainKinds) return;
+  struct Widest {
+    int depth = 0;
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  };
+  std::vector<Widest> widest(count);
+  const std::vector<int> depths = depths_of(cells);
+  for (int y = 0; y < cells.height; ++y) {
+    for (int x = 0; x < cells.width; ++x) {
+      if (cells.at(x, y) == kNotDrawn) continue;
+      Widest& best = widest[static_cast<std::size_t>(cells.at(x, y))];
+      const int depth = depths[cells.index(x, y)];
+      if (depth > best.depth) best = {depth, cells.centre_of(x, y)};
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (widest[i].depth == 0) continue;
+    const Place place = place_in(map.axes, widest[i].place.x(), widest[i].place.y());
+    add_rimmed_text(svg, place + Place(0.0, 5.0), fmt::format("{}", i + 1), Anchor::kMiddle);
+    take_place(map, place, 9.0);
+  }
+}
+
+void draw_best(Figure& figure, const Coverage& coverage, const CoverageLayer& layer,
+               const std::vector<Silhouette>& top_view) {
+  std::vector<std::string> names;
+  std::vector<std::string> colors;
+  for (std::size_t i = 0; i < std::min(coverage.antennas.size(), kMaxKinds); ++i) {
+    names.push_back(clean_text(coverage.antennas[i].name));
+    colors.push_back(color_of_kind(i));
+  }
+  MapView map = begin_map(figure, coverage, draw_kinds(figure.svg, names));
   const OccupancyGrid cells = numbered(coverage.grid, layer, [](const CoverageCell& cell) {
     const bool is_read = cell.antenna >= 0 && cell.probability >= kReadProbability;
-    return is_read ? static_cast<std::int8_t>(cell.antenna % kMaxKinds) : kNotDrawn;
+    return is_read ? static_cast<std::int8_t>(cell.antenna % static_cast<int>(kMaxKinds))
+                   : kNotDrawn;
   });
-  draw_cells(figure.svg, map, cells, colors, words);
+  draw_cells(figure.svg, map, cells, colors, names);
   end_map(figure, map, top_view);
-  draw_antennas(figure.svg, map, coverage);
+  draw_antenna_marks(figure.svg, map, coverage);
+  draw_numbers(figure.svg, map, cells, names.size());
+  draw_antenna_names(figure.svg, map, coverage);
 }
 
 void draw_tag(Svg& svg, const Place& place, const TagCoverage& tag, const Coverage& coverage) {

@@ -112,8 +112,11 @@ void draw_band_bar(Svg& svg, double y, const ColorBands& bands) {
 }
 
 const std::string& color_of_kind(std::size_t number) {
-  static const std::array<std::string, 8> kColors = {"#3c8ec9", "#e08a1e", "#2fa36b", "#c8539b",
-                                                     "#8c6bd1", "#b3a125", "#4fb8c4", "#d1564a"};
+  // The second round is the first mixed with 55 % white, the third with 45 % black.
+  static const std::array<std::string, 24> kColors = {
+      "#3c8ec9", "#e08a1e", "#2fa36b", "#c8539b", "#8c6bd1", "#b3a125", "#4fb8c4", "#d1564a",
+      "#a7cce7", "#f1ca9a", "#a1d6bc", "#e6b2d2", "#cbbcea", "#ddd59d", "#b0dfe4", "#eab3ae",
+      "#214e6f", "#7b4c10", "#1a5a3b", "#6e2e55", "#4d3b73", "#625914", "#2b656c", "#732f29"};
   return kColors[number % kColors.size()];
 }
 

@@ -42,7 +42,9 @@ ColorBands agreement_bands(double most);
 /// height of 44.
 void draw_band_bar(Svg& svg, double y, const ColorBands& bands);
 
-/// Colours for unordered categories, repeated cyclically.
+/// Colours for unordered categories: eight, then the same lighter, then darker, repeated after 24.
+/// With more than kPlainKinds, categories need another mark, too.
+inline constexpr std::size_t kPlainKinds = 8;
 const std::string& color_of_kind(std::size_t number);
 
 }  // namespace tagfield

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
+#include <string>
 
 #include "tagfield/report/coverage_figure.h"
 #include "tagfield/report/coverage_page.h"
@@ -114,6 +117,53 @@ TEST(CoverageFigure, NamesOfAntennasCoverNeitherEachOtherNorAntennas) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (const Box& antenna : antennas) EXPECT_FALSE(names[i].intersects(antenna)) << i;
     for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(names[i].intersects(names[j])) << i << j;
+  }
+}
+
+/// A row of `count` antennas, each best in three by three cells around it.
+Coverage row_of_antennas(std::size_t count) {
+  Coverage coverage = two_cells();
+  coverage.antennas.clear();
+  coverage.grid.columns = 3 * count;
+  coverage.grid.rows = 3;
+  coverage.grid.step_m = 1.0;
+  CoverageLayer layer = coverage.layers.front();
+  layer.cells.assign(9 * count, CoverageCell{});
+  for (std::size_t i = 0; i < layer.cells.size(); ++i) {
+    layer.cells[i].antenna = static_cast<int>((i % (3 * count)) / 3);
+    layer.cells[i].probability = 1.0;
+  }
+  coverage.layers = {layer};
+  for (std::size_t i = 0; i < count; ++i) {
+    CoverageAntenna antenna;
+    antenna.name = "gate_" + std::to_string(i + 1);
+    coverage.antennas.push_back(antenna);
+  }
+  return coverage;
+}
+
+std::size_t times_in(const std::string& part, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(CoverageFigure, AntennasBeyondEightAreTold) {
+  for (const std::size_t count : {8U, 9U, 24U, 30U}) {
+    const Coverage coverage = row_of_antennas(count);
+    const std::string body =
+        coverage_figure(coverage, coverage.layers.front(), CoverageQuantity::kAntenna, {}).svg.body;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string number = std::to_string(i + 1);
+      // In the legend and, with its rim, in the cells.
+      EXPECT_EQ(times_in(">" + number + ": gate_" + number + "<", body), count > 8 ? 1U : 0U);
+      EXPECT_GE(times_in(">" + number + "</text>", body), count > 8 ? 2U : 0U) << number;
+    }
+    std::set<std::string> colors;
+    for (std::size_t i = 0; i < count; ++i) colors.insert(color_of_kind(i));
+    EXPECT_EQ(colors.size(), std::min<std::size_t>(count, 24));
   }
 }
 
