@@ -114,6 +114,7 @@ RadioWorldOptions materials_in(const sdf::ElementPtr& plugin, Diagnostics& diagn
       options.rules.push_back(rule_in(child, options.materials));
     } else if (key == "default_material") {
       options.otherwise = find_material(options.materials, parameter.value).name;
+      options.states_otherwise = true;
     } else if (key == "min_facet_m2") {
       options.min_facet_m2 = number_in(parameter);
     } else {

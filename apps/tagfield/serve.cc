@@ -109,6 +109,12 @@ std::shared_ptr<LiveEstimates> live_estimates(const ServeArguments& arguments,
   LiveEstimateOptions options;
   options.localization = localization_options(scenario, 1);
   if (!arguments.method.empty()) options.localization.method = arguments.method;
+  if (options.localization.method == kNoLocalization) {
+    throw Error(
+        fmt::format("serve: the scenario's localization is '{}': expected --method METHOD with "
+                    "--locate",
+                    kNoLocalization));
+  }
   options.window = duration_from_seconds(arguments.window_s);
   return std::make_shared<LiveEstimates>(std::move(options));
 }

@@ -54,6 +54,7 @@ struct RadioWorldOptions {
   std::vector<MaterialRule> rules;                      ///< The last matching one counts.
   std::vector<Material> materials = known_materials();  ///< Candidates for guesses.
   std::string otherwise = "concrete";  ///< If no rule matches and the name gives no hint.
+  bool states_otherwise = false;       ///< `otherwise` was stated, so its use is no guess.
   double min_facet_m2 = 0.1;           ///< Smaller flat pieces block waves but don't reflect them.
 };
 

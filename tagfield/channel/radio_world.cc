@@ -8,6 +8,7 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace tagfield {
@@ -133,8 +134,8 @@ bool has_word(const std::vector<std::string>& words, std::string_view word) {
   return false;
 }
 
-/// From the innermost part of the name outwards, since a rack may hold boxes.
-std::string guess(const Collision& collision, const std::string& otherwise) {
+/// From the innermost part of the name outwards, since a rack may hold boxes; none without a hint.
+std::optional<std::string> guess(const Collision& collision) {
   for (const std::string& scope : scopes_of(collision.name)) {
     const std::size_t begin = scope.rfind("::");
     const std::vector<std::string> words =
@@ -143,7 +144,7 @@ std::string guess(const Collision& collision, const std::string& otherwise) {
       if (has_word(words, hint.word)) return hint.material;
     }
   }
-  return otherwise;
+  return std::nullopt;
 }
 
 std::string model_of(const std::string& name) { return name.substr(0, name.find("::")); }
@@ -192,7 +193,9 @@ std::vector<Material> materials_for(const Scene& scene, const RadioWorldOptions&
       of_solid.push_back(rule->material);
       continue;
     }
-    of_solid.push_back(find_material(options.materials, guess(collision, options.otherwise)));
+    const std::optional<std::string> hint = guess(collision);
+    of_solid.push_back(find_material(options.materials, hint.value_or(options.otherwise)));
+    if (!hint && options.states_otherwise) continue;
     guesses[of_solid.back().name].insert(model_of(collision.name));
   }
   warn_of_guesses(guesses, diagnostics);

@@ -47,8 +47,8 @@ struct RadioWorld {
 
 /// Prepares a world. Materials of collisions without a rule are guessed from their names
 /// ("metal_shelf", "wooden_crate", "glass_door") or become `otherwise`, with one warning that lists
-/// the guesses. Warns of rules that match nothing. Throws Error as RadioScene does, or if
-/// `materials` lacks a guessed one.
+/// the guesses; a stated `otherwise` is none. Warns of rules that match nothing. Throws Error as
+/// RadioScene does, or if `materials` lacks a guessed one.
 RadioWorld radio_world(const Scene& scene, const RadioWorldOptions& options,
                        Diagnostics& diagnostics);
 

@@ -21,7 +21,7 @@ Json to_json(const RigidTransform& X) {
 
 Json to_json(const std::vector<BudgetLine>& lines) {
   Json all = Json::array();
-  for (const BudgetLine& line : lines) all.push_back({{"what", line.what}, {"db", line.db}});
+  for (const BudgetLine& line : lines) all.push_back({{"what", line.what}, {"db", power(line.db)}});
   return all;
 }
 

@@ -773,6 +773,14 @@ def odd_physics_gets_warnings(context):
         path = context.write("odd.yaml", replaced(PHYSICS, old, new))
         result = context.run_well("run", path, "--no-page", "--out", context.folder / "out")
         check_in(says, result.err, new)
+    # A stated default is no guess.
+    context.write("hall.sdf", replaced(HALL.replace("box_", "part_"), 'model name="walls"', 'model name="shell"'))
+    stated = replaced(PHYSICS, "  materials: {walls: brick}\n", "")
+    for text, is_guess in ((stated, False), (replaced(stated, "  default_material: concrete\n", ""), True)):
+        result = context.run_well("check", context.write("default.yaml", text))
+        said = result.out + result.err
+        check_equal("materials are guessed from names: concrete for shell" in said, is_guess, said)
+        check_equal("guessed" in said, is_guess, said)
 
 
 @case

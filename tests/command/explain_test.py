@@ -96,6 +96,24 @@ def the_lines_add_up(context):
 
 
 @case
+def nothing_arrives_at_a_tag_that_is_seen_end_on(context):
+    path = context.write("end_on.yaml", """\
+model: link_budget
+duration_s: 1
+antennas: [{name: gate, reader: r, pose: [0, 0, 1.5, 0, 0, 0], channel_plan: etsi_low}]
+tags: [{id: lay, position: [0, 0, 4]}]
+""")
+    out = context.run_well("explain", path).out
+    check(out.startswith("not read: nothing at the tag"), out)
+    check("remains" not in out, out)
+    link = explained(context, path)
+    check_equal(link["tag_dbm"], None, "power at the chip")
+    check_equal([line["what"] for line in link["to_tag"] if line["db"] is None],
+                ["tag gain towards the antenna"], "lines of nothing")
+    check(all(line["db"] is None or line["db"] < 40 for line in link["to_tag"]), f"{link['to_tag']}")
+
+
+@case
 def materials_are_given_at_the_carrier(context):
     materials = {}
     for hertz in (865.7e6, 2.4e9):

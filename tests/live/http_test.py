@@ -563,6 +563,8 @@ def a_port_that_is_taken_is_said(context):
         check_equal(result.code, 2, "exit code")
         check_in(f"HTTP can't listen on 127.0.0.1 port {server.port}", result.err, "message")
     for arguments, word in ((["--listen", "nowhere"], "'nowhere' is not an IP address"),
+                            (["--locate", "--set", "localization.method=none"],
+                             "serve: the scenario's localization is 'none': expected --method METHOD with --locate"),
                             (["--speed", "-1"], "--speed: '-1': expected a multiple of real time")):
         result = context.run("serve", context.shipped(PORTAL), *arguments)
         check_equal(result.code, 2, f"exit code with {arguments}")

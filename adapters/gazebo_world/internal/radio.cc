@@ -66,7 +66,7 @@ void add_materials(const Scenario& scenario, XMLElement* world) {
     XMLElement* const element = add(plugin, "made_of", rule.material.name);
     element->SetAttribute("name", rule.name.c_str());
   }
-  add(plugin, "default_material", options.otherwise);
+  if (options.states_otherwise) add(plugin, "default_material", options.otherwise);
   add(plugin, "min_facet_m2", options.min_facet_m2);
 }
 

@@ -41,6 +41,24 @@ TEST(RadioWorld, GuessesFromTheInnermostNameOutwardsAndSaysSo) {
   EXPECT_FALSE(world.scene.is_opaque(1));
 }
 
+TEST(RadioWorld, AStatedDefaultIsNoGuess) {
+  RadioWorldOptions options;
+  options.otherwise = "brick";
+  for (const bool is_stated : {false, true}) {
+    options.states_otherwise = is_stated;
+    Diagnostics plain;
+    const RadioWorld world = radio_world(scene_of({"floor"}), options, plain);
+    EXPECT_EQ(material_of(world, 0), "brick");
+    EXPECT_EQ(plain.warnings().empty(), is_stated);
+    // What names hint at remains one.
+    Diagnostics both;
+    radio_world(scene_of({"floor", "rack_1"}), options, both);
+    ASSERT_EQ(both.warnings().size(), 1U);
+    EXPECT_NE(both.warnings()[0].find("metal for rack_1"), std::string::npos);
+    EXPECT_EQ(both.warnings()[0].find("floor") == std::string::npos, is_stated);
+  }
+}
+
 std::string guessed(const std::string& name) {
   RadioWorldOptions options;
   options.otherwise = "marble";

@@ -61,12 +61,31 @@ void add_direct(const RadioView& view, const TagEnd& tag, bool receiver, const R
   add(way.lines, "tag gain towards the antenna", budget.tag_db);
 }
 
+/// Powers and gains below this are nothing: of a pattern's null, or where no path is left.
+constexpr double kLeast_db = -250.0;
+
+bool is_nothing(double db) { return db < kLeast_db; }
+
+/// Whether the direct path carries nothing even if nothing obstructs it, as to a tag seen end-on.
+bool has_null(const std::vector<BudgetLine>& lines) {
+  return std::any_of(lines.begin(), lines.end(),
+                     [](const BudgetLine& line) { return is_nothing(line.db); });
+}
+
+/// The sum of the lines that are something.
+double sum_without_nulls(const std::vector<BudgetLine>& lines) {
+  double sum = 0.0;
+  for (const BudgetLine& line : lines) sum += is_nothing(line.db) ? 0.0 : line.db;
+  return sum;
+}
+
 std::string others_line(const OneWayLink& way, std::size_t count) {
   if (way.blocked && count == 0) return blockers(way.between) + " blocks the only path";
   const std::string others = count == 1 ? "1 other path" : fmt::format("{} other paths", count);
   if (way.blocked) {
     return fmt::format("{} blocks the direct path; {} instead", blockers(way.between), others);
   }
+  if (has_null(way.lines)) return fmt::format("{} instead", others);
   return count == 0 ? "what remains of it" : fmt::format("{} with it", others);
 }
 
@@ -140,11 +159,12 @@ OneWayLink one_way(const RadioView& view, const TagEnd& tag, double gain_db, boo
   add_direct(view, tag, receiver, way.paths.front(), way);
   const bool is_diffuse = view.model.effects.diffuse && view.model.diffuse_k_db.has_value();
   const double singles_db = is_diffuse ? paths_db(view, tag, receiver, way) : gain_db;
-  const double others_db = singles_db - sum_of(way.lines);
+  // What is nothing can't be compared with: other paths are then relative to the other lines.
+  const double others_db = singles_db - sum_without_nulls(way.lines);
   const std::size_t count = count_others(way);
-  // Without other paths, a difference is due to rounding, or to a null of the pattern clamped to
-  // "nothing".
-  if (count > 0 || way.blocked || std::abs(others_db) > 1e-6) {
+  const bool is_null = has_null(way.lines) && is_nothing(singles_db);
+  // Without other paths, a difference is due to rounding.
+  if (!is_null && (count > 0 || way.blocked || std::abs(others_db) > 1e-6)) {
     add(way.lines, others_line(way, count), others_db);
   }
   if (is_diffuse) add(way.lines, "diffuse waves", gain_db - singles_db);

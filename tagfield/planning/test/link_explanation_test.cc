@@ -42,6 +42,24 @@ TEST(LinkExplanation, IsFriisInFreeSpace) {
   EXPECT_NEAR(*link.physical->paths.front().relative_db, 0.0, 1e-9);
 }
 
+TEST(LinkExplanation, NothingRemainsOfATagSeenEndOn) {
+  // A dipole along z, 2 m above an antenna that looks at it.
+  RadioModel model = isotropic_model();
+  model.effects.patterns = true;
+  Scenario scenario = hall_with(physical_antenna("gate", {0.0, 0.0, 1.0}, model),
+                                physical_tag("tag", {0.0, 0.0, 3.0}));
+  TagModel tag;
+  tag.antenna.shape = PatternShape::kDipole;
+  scenario.tags.front().model = std::make_shared<const TagModel>(tag);
+  const LinkExplanation link = explained(scenario);
+  EXPECT_FALSE(link.read);
+  EXPECT_NE(link.verdict.find("not read: nothing at the tag"), std::string::npos) << link.verdict;
+  EXPECT_EQ(signed_db(link.physical->tag_dbm), "nothing");
+  for (const BudgetLine& line : link.physical->to_tag) {
+    EXPECT_EQ(line.what.find("remains"), std::string::npos) << line.what << ' ' << line.db;
+  }
+}
+
 TEST(LinkExplanation, GivesTheTabulatedRepliesAtOneTwoAndFiveMetres) {
   // 35.15 dBm EIRP with a 6 dBi circular antenna, a 2 dBi linear tag, modulation −5 dB.
   RadioModel model = isotropic_model();

@@ -166,6 +166,7 @@ RadioWorldOptions radio_world_options_of(YamlMap& scenario) {
       world.number("min_facet_m2", options.min_facet_m2, NumberRange::kNotNegative);
   if (world.has("default_material")) {
     options.otherwise = material_named(options.materials, world.at("default_material")).name;
+    options.states_otherwise = true;
   }
   if (!world.has("materials")) return options;
   YamlMap rules(world.at("materials"));
