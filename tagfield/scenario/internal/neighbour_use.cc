@@ -77,6 +77,32 @@ void warn_of_sharing(const Scenario& scenario, const AntennaParameters& antenna,
                   antenna.name));
 }
 
+/// Null if the antenna does not take inventory by Gen2.
+const InventorySettings* inventory_of(const AntennaSpec& antenna) {
+  const RadioModel* const model = physical(antenna.parameters);
+  const bool takes = model != nullptr && model->gen2 && model->effects.inventory;
+  return takes ? &model->gen2->inventory : nullptr;
+}
+
+/// Warns about an antenna that asks for flags that nothing sets: all flags begin with A.
+void warn_of_target(const Scenario& scenario, const AntennaSpec& antenna,
+                    Diagnostics& diagnostics) {
+  const InventorySettings* const own = inventory_of(antenna);
+  if (own == nullptr || own->target != Target::kB) return;
+  const bool any_sets = std::any_of(
+      scenario.antennas.begin(), scenario.antennas.end(), [&](const AntennaSpec& other) {
+        const InventorySettings* const its = inventory_of(other);
+        return its != nullptr && its->session == own->session && its->target != Target::kB;
+      });
+  if (any_sets) return;
+  const RawParameter* const at = last_of(physical(antenna.parameters)->settings, "target");
+  diagnostics.warn(
+      at == nullptr ? Location{} : at->location,
+      fmt::format("antenna '{}' reads nothing: with target: b it asks for flags of B, tags begin "
+                  "with A, and no antenna in its session, s{}, has target: a or alternate",
+                  antenna.parameters.name, static_cast<int>(own->session)));
+}
+
 /// A reader's antennas take turns, so they share the air with other readers in one way.
 void require_one_sharing(const Scenario& scenario, const AntennaParameters& antenna) {
   const RadioModel& model = *physical(antenna);
@@ -156,6 +182,7 @@ void require_use_of_neighbours(const Scenario& scenario, Diagnostics& diagnostic
     warn_of_mask(scenario, antenna.parameters, diagnostics);
     warn_of_port_dwell(cycles, antenna.parameters, diagnostics);
     warn_of_sharing(scenario, antenna.parameters, diagnostics);
+    warn_of_target(scenario, antenna, diagnostics);
     const RawParameter* const coupling = last_of(model->settings, "tag_coupling");
     if (couples_tags(*model) && coupling != nullptr && scenario.tags.size() == 1) {
       diagnostics.warn(coupling->location, "tag_coupling has no effect: there is one tag only");

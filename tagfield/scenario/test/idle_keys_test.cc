@@ -49,6 +49,27 @@ TEST(IdleKeys, ErrorsOfThePoseNeedTheirSource) {
   EXPECT_EQ(warnings_of(hall("paper", "", "pose: {source: odometry, sigma_m: 0}\n")), Warnings{});
 }
 
+TEST(IdleKeys, FlagsOfBNeedAnAntennaThatSetsThem) {
+  const auto portal = [](const std::string& first, const std::string& second) {
+    const std::string plain = ", reader: r, pose: [0, 0, 1], inventory: gen2";
+    return warnings_of("model: link_budget\nduration_s: 3\nantennas:\n  - {name: a" + plain +
+                       first + "}\n  - {name: b" + plain + second +
+                       "}\ntags:\n  - {id: t, position: [2, 1, 1]}\n");
+  };
+  const std::string why =
+      "reads nothing: with target: b it asks for flags of B, tags begin with A, and no antenna in "
+      "its session, s3, has target: a or alternate";
+  EXPECT_EQ(portal(", session: s3, target: b", ", session: s3, target: b"),
+            (Warnings{"4: antenna 'a' " + why, "5: antenna 'b' " + why}));
+  // In another session the other antenna's flags are others.
+  EXPECT_EQ(portal(", session: s3, target: b", ", session: s2, target: a"),
+            Warnings{"4: antenna 'a' " + why});
+  for (const char* const target : {"a", "alternate"}) {
+    EXPECT_EQ(portal(", session: s3, target: b", std::string(", session: s3, target: ") + target),
+              Warnings{});
+  }
+}
+
 TEST(IdleKeys, ASourceReplacedFromTheCommandLineIsTriedOut) {
   const std::string path = folder_of_test().with(
       "scenario.yaml", hall("paper", "", "pose: {source: noisy, sigma_m: 0.05}\n"));
