@@ -16,6 +16,7 @@
 namespace tagfield {
 namespace {
 
+constexpr const char* kFcc = "fcc";
 constexpr double kMinCarrier = 1e6;
 constexpr double kMaxCarrier = 300e9;
 
@@ -32,7 +33,7 @@ std::vector<ChannelPlan> make_plans() {
           // ERC/REC 70-03, annex 11: 400 kHz wide, 4 W ERP.
           {"etsi_high", {916.3e6, 917.5e6, 918.7e6}, 4.0, 915e6, 921e6, 36.02, 400e3},
           // 47 CFR 15.247: 50 channels, at most 0.4 s in 20 s, 1 W into 6 dBi: 36 dBm EIRP.
-          {"fcc", evenly(902.75e6, 0.5e6, 50), 0.4, 902e6, 928e6, 36.0 - kDipole_dbi, 500e3},
+          {kFcc, evenly(902.75e6, 0.5e6, 50), 0.4, 902e6, 928e6, 36.0 - kDipole_dbi, 500e3},
           // MIIT 2007-205: 920.625 to 924.375 MHz in steps of 250 kHz, 2 W ERP, at most 2 s.
           {"china", evenly(920.625e6, 0.25e6, 16), 2.0, 920e6, 925e6, 33.01, 250e3}};
 }
@@ -82,6 +83,12 @@ ChannelPlan fixed_plan(double frequency_hz) {
   plan.name = "fixed";
   plan.carriers_hz = {frequency_hz};
   return plan;
+}
+
+std::optional<double> max_conducted_dbm(const ChannelPlan& plan) {
+  constexpr std::size_t kManyChannels = 50;
+  if (plan.name != kFcc) return std::nullopt;
+  return plan.carriers_hz.size() >= kManyChannels ? 30.0 : 10.0 * std::log10(250.0);
 }
 
 void check(const ChannelPlan& plan) {

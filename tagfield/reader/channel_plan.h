@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ const ChannelPlan& known_plan(const std::string& name);
 
 /// A single carrier that never changes.
 ChannelPlan fixed_plan(double frequency_hz);
+
+/// Maximum power into the antenna, after the cable [dBm]; none if the plan's regulation limits only
+/// what is radiated. For "fcc" 1 W with at least 50 carriers, 0.25 W with fewer: 47 CFR 15.247
+/// (b)(2).
+std::optional<double> max_conducted_dbm(const ChannelPlan& plan);
 
 /// Throws Error naming the parameter that is out of range, such as a carrier outside the band.
 void check(const ChannelPlan& plan);

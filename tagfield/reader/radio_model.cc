@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
@@ -13,7 +14,18 @@ namespace {
 
 double peak_dbi(const AntennaPattern& pattern) { return to_db(peak_gain(pattern)); }
 
+void warn_of_conducted_power(const RadioModel& model, Diagnostics& diagnostics) {
+  const std::optional<double> max_dbm = max_conducted_dbm(model.plan);
+  const double conducted_dbm = model.transmit_power_dbm - model.cable_loss_db;
+  if (!max_dbm || conducted_dbm <= *max_dbm + 0.05) return;
+  diagnostics.warn(
+      fmt::format("{:.1f} dBm into the antenna is more than the {:.1f} dBm that the channel plan "
+                  "'{}' allows with {} carriers",
+                  conducted_dbm, *max_dbm, model.plan.name, model.plan.carriers_hz.size()));
+}
+
 void warn_of_power(const RadioModel& model, Diagnostics& diagnostics) {
+  warn_of_conducted_power(model, diagnostics);
   if (!(model.plan.max_erp_dbm > 0.0)) return;
   const double eirp_dbm = model.transmit_power_dbm - model.cable_loss_db + peak_dbi(model.antenna);
   const double max_dbm = model.plan.max_erp_dbm + kDipole_dbi;

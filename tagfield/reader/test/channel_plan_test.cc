@@ -21,6 +21,17 @@ TEST(KnownPlans, AreWithinTheirBandsAndAsManyAsTheRegulationsSay) {
   EXPECT_DOUBLE_EQ(known_plan("china").carriers_hz.back(), 924.375e6);
 }
 
+TEST(KnownPlans, OfTheFccLimitsThePowerIntoTheAntenna) {
+  // 47 CFR 15.247(b)(2): 1 W with at least 50 hopping channels, else 0.25 W.
+  ChannelPlan plan = known_plan("fcc");
+  ASSERT_TRUE(max_conducted_dbm(plan));
+  EXPECT_NEAR(*max_conducted_dbm(plan), 30.0, 1e-9);
+  plan.carriers_hz.pop_back();
+  EXPECT_NEAR(*max_conducted_dbm(plan), 23.979, 1e-3);
+  EXPECT_FALSE(max_conducted_dbm(known_plan("etsi_low")));
+  EXPECT_FALSE(max_conducted_dbm(fixed_plan(915e6)));
+}
+
 TEST(ChannelAt, VisitsEachChannelOnceACycleForItsDwell) {
   const ChannelPlan& plan = known_plan("fcc");
   std::set<std::size_t> seen;

@@ -199,8 +199,8 @@ std::vector<double> powers_of(YamlMap& map, const RadioModel& model) {
 /// The maximum power at the reader's port that the regulation allows with this antenna [dBm].
 double max_power_dbm(const RadioModel& model) {
   constexpr double kDipole_dbi = 2.15;
-  return model.plan.max_erp_dbm + kDipole_dbi - to_db(peak_gain(model.antenna)) +
-         model.cable_loss_db;
+  const double by_eirp = model.plan.max_erp_dbm + kDipole_dbi - to_db(peak_gain(model.antenna));
+  return std::min(by_eirp, max_conducted_dbm(model.plan).value_or(by_eirp)) + model.cable_loss_db;
 }
 
 void require_legal(const YamlValue& where, const PlanMount& mount, const RadioModel& model) {
@@ -209,7 +209,7 @@ void require_legal(const YamlValue& where, const PlanMount& mount, const RadioMo
   for (const double power : mount.power_dbm) {
     if (power <= most + 0.05) continue;
     where.fail(
-        fmt::format("sends {:g} dBm into this antenna, more than the {:.1f} dBm that the plan "
+        fmt::format("sends {:g} dBm to this antenna, more than the {:.1f} dBm that the plan "
                     "{} allows: lower powers_dbm or transmit_power_dbm",
                     power, most, model.plan.name));
   }

@@ -49,6 +49,23 @@ TEST(PlanYaml, SpreadsPlacesAndMounts) {
   EXPECT_DOUBLE_EQ(plan.dwell_s, 3.0);
 }
 
+TEST(PlanYaml, RefusesMorePowerIntoTheAntennaThanTheFccAllows) {
+  const auto of_power = [](const std::string& power) {
+    return complaint(
+        "model: link_budget\nplan:\n  tags: [{name: t, points: [[1, 0, 0]]}]\n  mounts:\n"
+        "    - {name: m, points: [[0, 0, 2]], rpy_deg: [[0, 0, 0]], channel_plan: fcc, gain_dbi: "
+        "2, cable_loss_db: 0.6, "
+        "powers_dbm: [" +
+        power + "]}\n");
+  };
+  // 1 W after the cable, though 34 dBm would be 36 dBm EIRP.
+  EXPECT_EQ(of_power("30.6"), "");
+  EXPECT_NE(of_power("33").find("sends 33 dBm to this antenna, more than the 30.6 dBm that the "
+                                "plan fcc allows"),
+            std::string::npos)
+      << of_power("33");
+}
+
 TEST(PlanYaml, WarnsOfSettingsWithoutEffect) {
   Diagnostics diagnostics;
   const std::string path = folder_of_test().with(

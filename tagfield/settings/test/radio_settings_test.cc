@@ -141,6 +141,29 @@ TEST(RadioModelFrom, WarnsOfMorePowerThanThePlanAllows) {
             "allows");
 }
 
+TEST(RadioModelFrom, WarnsOfMorePowerIntoTheAntennaThanTheFccAllows) {
+  const auto warnings = [](const std::string& cable_db, const std::string& carriers_hz) {
+    std::vector<RawParameter> settings = of({{"channel_plan", "fcc"},
+                                             {"transmit_power_dbm", "31"},
+                                             {"gain_dbi", "2"},
+                                             {"cable_loss_db", cable_db}});
+    if (!carriers_hz.empty()) {
+      const std::vector<RawParameter> carriers = of({{"carriers_hz", carriers_hz}});
+      settings.insert(settings.end(), carriers.begin(), carriers.end());
+    }
+    Diagnostics diagnostics;
+    radio_model_from(PropagationModel::kLinkBudget, settings, kHere, diagnostics);
+    return diagnostics.warnings();
+  };
+  EXPECT_EQ(warnings("1", ""), std::vector<std::string>{});
+  EXPECT_EQ(warnings("0.6", ""),
+            std::vector<std::string>{"s.yaml:3: 30.4 dBm into the antenna is more than the 30.0 "
+                                     "dBm that the channel plan 'fcc' allows with 50 carriers"});
+  EXPECT_EQ(warnings("1", "905e6 915e6"),
+            std::vector<std::string>{"s.yaml:3: 30.0 dBm into the antenna is more than the 24.0 "
+                                     "dBm that the channel plan 'fcc' allows with 2 carriers"});
+}
+
 TEST(TagModelFrom, TakesValuesAndChecksThem) {
   Diagnostics diagnostics;
   const auto tag =
