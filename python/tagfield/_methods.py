@@ -36,9 +36,9 @@ class Estimate:
     position_m: x, y [m, world], or x, y, z; without z, the height is :meth:`Problem.height_m`.
     covariance_m2: covariance of the position [m²], (3, 3) or (2, 2), if the method knows it; symmetric,
         without negative eigenvalues.
-    expected_error_m: square root of the trace of the horizontal covariance [m]; by default computed
-        from covariance_m2. If it exceeds the limit (0.15 m by default), the tag does not count as
-        located.
+    expected_error_m: square root of the trace of the horizontal covariance [m]; by default, and if
+        it is 0, computed from covariance_m2; 0 without one claims that there is no error. If it exceeds
+        the limit (0.15 m by default), the tag does not count as located.
     rms_m: root mean square of the fit's residuals [m].
     """
 
@@ -147,10 +147,13 @@ def _place(name: str, problem: Problem, tag: str, answer: Any) -> tuple:
         covariance = np.zeros((3, 3))
         covariance[:len(given), :len(given)] = given
     expected = estimate.expected_error_m
-    if expected is None:
-        expected = 0.0 if covariance is None else math.sqrt(max(covariance[0, 0] + covariance[1, 1], 0.0))
-    for key, value in (("expected_error_m", expected), ("rms_m", estimate.rms_m)):
+    for key, value in (("expected_error_m", 0.0 if expected is None else expected), ("rms_m", estimate.rms_m)):
         number(f"method '{name}': tag '{tag}': {key}", value, 0.0)
+    if covariance is None and expected is not None and expected == 0.0:
+        covariance = np.zeros((3, 3))  # Tells a stated error of 0 from none.
+    if not expected:
+        expected = 0.0 if covariance is None else math.sqrt(max(covariance[0, 0] + covariance[1, 1], 0.0))
+        number(f"method '{name}': tag '{tag}': expected_error_m", expected, 0.0)
     return place, covariance, float(expected), float(estimate.rms_m)
 
 

@@ -323,6 +323,20 @@ def test_names_of_methods_of_one_s_own_are_free_but_for_those_in_use(scenario):
     np.testing.assert_allclose(rows["mean_m"], [0, 0.1, 0.2], atol=1e-12)
 
 
+def test_a_stated_error_of_0_is_a_claim(scenario):
+    def stating(name, **stated):
+        return tagfield.method(name)(
+            lambda problem, tag, samples: tagfield.Estimate(scenario.tags[tag] + [0.1, 0, 0], **stated))
+
+    zeros = np.zeros((2, 2))
+    rows = tagfield.bench(scenario, [stating("silent"), stating("exact", expected_error_m=0.0),
+                                     stating("zeros", covariance_m2=zeros),
+                                     stating("both", expected_error_m=0, covariance_m2=np.eye(2) * 1e-3)])
+    rows = rows.to_pandas().set_index("name")
+    assert rows["false_claims"].to_dict() == {"silent": 0, "exact": 10, "zeros": 10, "both": 0}
+    assert rows.loc["both", "error_over_expected"] == pytest.approx(np.sqrt(0.01 / 2e-3))
+
+
 def test_a_suite_takes_methods_with_labels(scenario, tmp_path):
     suite = tmp_path / "suite.yaml"
     path = tagfield.share("scenarios/paper_warehouse.yaml")

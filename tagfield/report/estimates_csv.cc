@@ -54,7 +54,9 @@ class EstimateRows {
       candidate.expected_error_m = std::sqrt(candidate.covariance->topLeftCorner<2, 2>().trace());
     }
     if (has(row, "expected_error_m")) {
-      candidate.expected_error_m = not_negative(row, "expected_error_m");
+      const double stated = not_negative(row, "expected_error_m");
+      if (stated > 0.0) candidate.expected_error_m = stated;
+      if (stated == 0.0 && !candidate.covariance) candidate.covariance = Eigen::Matrix3d::Zero();
     }
     return candidate;
   }

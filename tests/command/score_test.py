@@ -125,6 +125,39 @@ def a_command_is_a_method(context):
             check_near(float(row["x_m"]), alone[row["tag"]][0], 1e-5, f"{row['tag']}: x")
 
 
+def bench_of(context, name, table):
+    """The bench's entry of a command that gives this table, and what was warned of."""
+    (context.folder / name).mkdir()
+    copied = context.write(f"{name}/estimates.csv", table)
+    out = context.folder / f"bench_{name}"
+    result = context.run_well("bench", suite(context, "[hyperbola]"), "--seeds", "1", "--methods", "mine", "--no-page",
+                              "--out", out, "--command", f"mine=cp {copied}")
+    return read_json(out / "bench.json")["entries"][0], result.err
+
+
+@case
+def a_stated_error_of_0_is_a_claim(context):
+    rows = [f"tag{i},{i}.5,-9.5" for i in range(1, 11)]  # None of them is right.
+    said = "method 'mine' states {} for 10 located tags"
+    for name, columns, ends, claims, warned in (
+            ("none", "tag,x_m,y_m", "", 0, None),
+            ("exact", "tag,x_m,y_m,expected_error_m", ",0", 10, said.format("an expected error of 0")),
+            ("zeros", "tag,x_m,y_m,cov_xx,cov_xy,cov_yy", ",0,0,0", 10, said.format("an expected error of 0")),
+            ("both", "tag,x_m,y_m,expected_error_m,cov_xx,cov_xy,cov_yy", ",0,100,0,100", 0, None),
+            ("flat", "tag,x_m,y_m,expected_error_m,cov_xx,cov_xy,cov_yy", ",0.001,0,0,0", 10,
+             said.format("a covariance without an inverse"))):
+        entry, err = bench_of(context, name, "\n".join([columns, *(row + ends for row in rows)]) + "\n")
+        # With an expected error of 14 m, reads that don't fit are a reason to refuse a position.
+        check(entry["located"] == 10 or (name == "both" and entry["located"] > 0), f"{name}: {entry['located']} located")
+        check_equal(entry["false_claims"], claims, f"{name}: false claims")
+        check_equal(entry["error_over_expected"] is None, name in ("none", "exact", "zeros"), f"{name}: no ratio")
+        check_equal(entry["nees"] is None, name != "both", f"{name}: no NEES")
+        if warned is None:
+            check(" states " not in err, f"{name}: warned {err!r}")
+        else:
+            check_in(warned, err, f"{name}: stderr")
+
+
 @case
 def suites_start_no_programs(context):
     mark = context.folder / "mark"

@@ -49,14 +49,17 @@ struct TagRecord {
   std::optional<Eigen::Vector3d> truth;     ///< None for a moving tag.
   std::optional<Eigen::Vector3d> estimate;  ///< Of a located tag.
   bool height_estimated = false;
-  double expected_error = 0.0;              ///< As stated by the method, of the best candidate.
-  std::optional<double> error;              ///< Horizontal, of a located tag with a known position.
+  double expected_error = 0.0;  ///< As stated by the method, of the best candidate.
+  bool claims_no_error =
+      false;                    ///< The method states 0; without, an `expected_error` of 0 is none.
+  std::optional<double> error;  ///< Horizontal, of a located tag with a known position.
   std::optional<double> error_3d;           ///< Same, but in 3D, if the height was estimated.
   std::optional<double> aligned_error;      ///< After the best rigid motion of the run's tags.
   std::optional<double> nearest_candidate;  ///< Error of an ambiguous tag's closest candidate.
   std::optional<TagBound> bound;
   std::optional<Nees> nees;
-  bool false_claim = false;  ///< Located, but no position is true, or far off the stated error.
+  bool false_claim = false;      ///< Located, but no position is true, or far off the stated error.
+  bool flat_covariance = false;  ///< That of a located tag has no inverse, so there is no `nees`.
 };
 
 /// One run (one seed) by one method.

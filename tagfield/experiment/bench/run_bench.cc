@@ -138,6 +138,32 @@ void add_warnings(const Job& job, std::uint64_t first_seed, Diagnostics& diagnos
   }
 }
 
+std::size_t count_located(const BenchEntry& entry, bool TagRecord::*property) {
+  std::size_t count = 0;
+  for (const MethodRun& run : entry.runs) {
+    count += static_cast<std::size_t>(
+        std::count_if(run.tags.begin(), run.tags.end(), [property](const TagRecord& tag) {
+          return tag.*property && tag.verdict == Verdict::kLocated;
+        }));
+  }
+  return count;
+}
+
+/// Errors can't be divided by a stated error of 0: such tags are left out, which must not go
+/// unnoticed.
+void warn_of_left_out(const BenchEntry& entry, Diagnostics& diagnostics) {
+  const auto warn = [&](bool TagRecord::*property, const char* states, const char* left_out_of) {
+    const std::size_t count = count_located(entry, property);
+    if (count == 0) return;
+    diagnostics.warn(fmt::format("condition '{}': method '{}' states {} for {} located tag{}: {}",
+                                 entry.condition, entry.name, states, count, count == 1 ? "" : "s",
+                                 left_out_of));
+  };
+  warn(&TagRecord::claims_no_error, "an expected error of 0",
+       "left out of error_over_expected and NEES, and a false claim unless exact");
+  warn(&TagRecord::flat_covariance, "a covariance without an inverse", "left out of NEES");
+}
+
 /// Distributes the runs of the jobs to their entries.
 void collect(const PreparedSuite& prepared, std::vector<Job>& jobs, Bench& bench) {
   Diagnostics diagnostics;
@@ -157,6 +183,7 @@ void collect(const PreparedSuite& prepared, std::vector<Job>& jobs, Bench& bench
       bench.entries[first_entry + i].runs.push_back(std::move((*job.runs)[i]));
     }
   }
+  for (const BenchEntry& entry : bench.entries) warn_of_left_out(entry, diagnostics);
   bench.warnings = diagnostics.warnings();
 }
 

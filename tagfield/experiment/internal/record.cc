@@ -23,9 +23,10 @@ void add_errors(const Candidate& best, TagRecord& record) {
   const Eigen::Vector3d error = best.p_WT - *record.truth;
   record.error = horizontal(error);
   if (record.height_estimated) record.error_3d = error.norm();
-  if (!best.covariance) return;
+  if (!best.covariance || record.claims_no_error) return;
   const bool with_height = record.height_estimated && (*best.covariance)(2, 2) > 0.0;
   record.nees = nees_of(error, *best.covariance, with_height);
+  record.flat_covariance = !record.nees;
 }
 
 double nearest_error(const std::vector<Candidate>& candidates, const Eigen::Vector3d& truth) {
@@ -43,13 +44,21 @@ std::optional<TagBound> bound_of(const Eigen::Matrix3d& covariance) {
   return TagBound{mean_horizontal_error(covariance), variance_m2};
 }
 
+/// Whether the method states an error of 0: one that states no error gives no covariance of 0.
+bool claims_no_error(const Candidate& best) {
+  return best.expected_error_m == 0.0 && best.covariance &&
+         best.covariance->topLeftCorner<2, 2>().isZero(0.0);
+}
+
 /// Fills in the results of the estimate.
 void add_estimate(const TagEstimate& estimate, TagRecord& record) {
   record.verdict = estimate.verdict;
   record.reason = estimate.reason;
   if (estimate.candidates.empty()) return;
-  record.expected_error = estimate.candidates.front().expected_error_m;
-  if (estimate.verdict == Verdict::kLocated) add_errors(estimate.candidates.front(), record);
+  const Candidate& best = estimate.candidates.front();
+  record.expected_error = best.expected_error_m;
+  record.claims_no_error = claims_no_error(best);
+  if (estimate.verdict == Verdict::kLocated) add_errors(best, record);
   if (estimate.verdict == Verdict::kAmbiguous && record.truth) {
     record.nearest_candidate = nearest_error(estimate.candidates, *record.truth);
   }
@@ -91,8 +100,8 @@ void judge_claims(const Faults& faults, MethodRun& run) {
   const bool can_be_true = has_true_position(faults, run.method);
   for (TagRecord& tag : run.tags) {
     if (tag.verdict != Verdict::kLocated) continue;
-    const bool too_far =
-        tag.error && tag.expected_error > 0.0 && *tag.error > kFalseClaim * tag.expected_error;
+    const bool states_error = tag.expected_error > 0.0 || tag.claims_no_error;
+    const bool too_far = tag.error && states_error && *tag.error > kFalseClaim * tag.expected_error;
     tag.false_claim = !can_be_true || tag.moved || too_far;
   }
 }

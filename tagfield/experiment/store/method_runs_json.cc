@@ -17,11 +17,12 @@ Line encoded(const TagRecord& tag) {
   if (tag.bound) bound = {exact_json(tag.bound->mean_error_m), exact_json(tag.bound->variance_m2)};
   Line nees;
   if (tag.nees) nees = {exact_json(tag.nees->value), tag.nees->dof};
-  return Line::array(
-      {tag.tag, to_string(tag.verdict), tag.reason, tag.reads, tag.moved, exact_json(tag.truth),
-       exact_json(tag.estimate), tag.height_estimated, exact_json(tag.expected_error),
-       exact_json(tag.error), exact_json(tag.error_3d), exact_json(tag.aligned_error),
-       exact_json(tag.nearest_candidate), std::move(bound), std::move(nees), tag.false_claim});
+  return Line::array({tag.tag, to_string(tag.verdict), tag.reason, tag.reads, tag.moved,
+                      exact_json(tag.truth), exact_json(tag.estimate), tag.height_estimated,
+                      exact_json(tag.expected_error), exact_json(tag.error),
+                      exact_json(tag.error_3d), exact_json(tag.aligned_error),
+                      exact_json(tag.nearest_candidate), std::move(bound), std::move(nees),
+                      tag.false_claim, tag.claims_no_error, tag.flat_covariance});
 }
 
 TagRecord tag_in(const Line& json) {
@@ -46,6 +47,8 @@ TagRecord tag_in(const Line& json) {
   const Line& nees = next();
   if (!nees.is_null()) tag.nees = {exact_double_in(nees.at(0)), nees.at(1).get<int>()};
   tag.false_claim = next().get<bool>();
+  tag.claims_no_error = next().get<bool>();
+  tag.flat_covariance = next().get<bool>();
   return tag;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -106,6 +107,12 @@ TEST(Records, SayWhichClaimsAreFalse) {
   run.tags[0].expected_error = 0.0;  // From a method that states none.
   judge_claims({}, run);
   EXPECT_FALSE(run.tags[0].false_claim);
+  run.tags[0].claims_no_error = true;
+  judge_claims({}, run);
+  EXPECT_TRUE(run.tags[0].false_claim);  // 0.5 > 5 * 0
+  run.tags[0].error = 0.0;
+  judge_claims({}, run);
+  EXPECT_FALSE(run.tags[0].false_claim);
   Faults faults;
   faults.random_phases = true;
   judge_claims(faults, run);
@@ -114,6 +121,28 @@ TEST(Records, SayWhichClaimsAreFalse) {
   run.method = "trilateration";
   judge_claims(faults, run);
   EXPECT_FALSE(run.tags[0].false_claim);
+}
+
+/// The record of a tag that is 0.5 m off the stated position.
+TagRecord record_stating(double expected_error_m,
+                         const std::optional<Eigen::Matrix3d>& covariance) {
+  std::vector<TagEstimate> estimates = {estimate_at("a", {{1.3, 2.4, 3.0}})};
+  estimates[0].candidates[0].expected_error_m = expected_error_m;
+  estimates[0].candidates[0].covariance = covariance;
+  return records_of({}, judged(estimates, {}, hall(), {})).at(0);
+}
+
+TEST(Records, TellAStatedErrorOf0FromNone) {
+  const Eigen::Matrix3d zero = Eigen::Matrix3d::Zero();
+  EXPECT_FALSE(record_stating(0.0, std::nullopt).claims_no_error);
+  EXPECT_FALSE(record_stating(0.0, std::nullopt).flat_covariance);
+  EXPECT_TRUE(record_stating(0.0, zero).claims_no_error);
+  EXPECT_FALSE(record_stating(0.0, zero).flat_covariance);  // That would be said twice.
+  EXPECT_FALSE(record_stating(0.02, zero).claims_no_error);
+  EXPECT_TRUE(record_stating(0.02, zero).flat_covariance);
+  EXPECT_FALSE(record_stating(0.02, zero).nees);
+  const Eigen::Matrix3d good = Eigen::Vector3d(0.01, 0.01, 0.0).asDiagonal();
+  EXPECT_FALSE(record_stating(0.02, good).flat_covariance);
 }
 
 TEST(Records, AreAlignedAsAWhole) {

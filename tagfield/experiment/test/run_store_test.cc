@@ -56,6 +56,8 @@ TagRecord odd_record() {
   tag.bound = TagBound{0.1, std::nextafter(0.2, 1.0)};
   tag.nees = Nees{std::numeric_limits<double>::quiet_NaN(), 3};
   tag.false_claim = true;
+  tag.claims_no_error = true;
+  tag.flat_covariance = true;
   return tag;
 }
 
@@ -84,6 +86,8 @@ TEST(MethodRunsJson, GivesBackEachBit) {
   EXPECT_EQ(tag.bound->variance_m2, run.tags[0].bound->variance_m2);
   EXPECT_TRUE(std::isinf(tag.expected_error));
   EXPECT_TRUE(std::isnan(tag.nees->value));
+  EXPECT_TRUE(tag.claims_no_error);
+  EXPECT_TRUE(tag.flat_covariance);
   EXPECT_FALSE(other.tags.at(1).error.has_value());
   EXPECT_EQ(to_json_line(back), line);
 }
