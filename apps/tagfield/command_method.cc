@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include "tagfield/base/file_kind.h"
 #include "tagfield/files/files.h"
@@ -153,18 +154,28 @@ void run_command(const std::string& command, const fs::path& folder) {
   }
 }
 
+/// The tags that a program may have heard of.
+std::set<std::string> tags_of(const LocalizationProblem& problem) {
+  std::set<std::string> tags;
+  for (const auto& [tag, samples] : problem.samples) tags.insert(tag);
+  for (const auto& [tag, place] : problem.reference_tags) tags.insert(tag);
+  return tags;
+}
+
 /// The program's estimates for the problem's tags.
 std::map<std::string, TagEstimate> estimates_in(const LocalizationProblem& problem,
-                                                const fs::path& folder) {
+                                                const std::string& name, const fs::path& folder,
+                                                Diagnostics& diagnostics) {
   const fs::path file = folder / "estimates.csv";
   std::map<std::string, TagEstimate> estimates;
   const auto height = [&](const std::string& tag) {
     return problem.samples.count(tag) > 0 ? plane_height(problem, tag) : 0.0;
   };
   try {
-    for (TagEstimate& estimate : read_estimates_csv(file.string(), height)) {
-      estimates[estimate.tag] = std::move(estimate);
-    }
+    std::vector<TagEstimate> all = read_estimates_csv(file.string(), height);
+    drop_strangers({fmt::format("method '{}': estimates.csv", name), 0}, "the reads have",
+                   tags_of(problem), all, diagnostics);
+    for (TagEstimate& estimate : all) estimates[estimate.tag] = std::move(estimate);
   } catch (const Error& error) {
     std::string said = error.what();
     if (said.rfind(folder.string(), 0) == 0) said.erase(0, folder.string().size() + 1);
@@ -173,11 +184,13 @@ std::map<std::string, TagEstimate> estimates_in(const LocalizationProblem& probl
   return estimates;
 }
 
-std::vector<TagEstimate> locate(const std::string& command, const LocalizationProblem& problem) {
+std::vector<TagEstimate> locate(const std::string& name, const std::string& command,
+                                const LocalizationProblem& problem, Diagnostics& diagnostics) {
   const TemporaryFolder folder;
   write_problem(problem, folder.path());
   run_command(command, folder.path());
-  std::map<std::string, TagEstimate> found = estimates_in(problem, folder.path());
+  std::map<std::string, TagEstimate> found =
+      estimates_in(problem, name, folder.path(), diagnostics);
   std::vector<TagEstimate> estimates;
   for (const auto& [tag, samples] : problem.samples) {
     const auto reference = problem.reference_tags.find(tag);
@@ -207,13 +220,17 @@ Method command_method(const std::string& name, const std::string& command) {
   Method method;
   method.name = name;
   method.summary = command;
-  method.locate = named(name, [name, command](const LocalizationProblem& problem, int /*threads*/) {
+  method.locate = [name, command](const LocalizationProblem& problem, int /*threads*/,
+                                  Diagnostics& diagnostics) {
+    LocalizationResult result;
+    result.method = name;
     try {
-      return locate(command, problem);
+      result.estimates = locate(name, command, problem, diagnostics);
     } catch (const Error& error) {
       throw Error(fmt::format("method '{}': {}", name, error.what()));
     }
-  });
+    return result;
+  };
   return method;
 }
 

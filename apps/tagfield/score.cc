@@ -10,7 +10,6 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/table.h"
 #include "tagfield/base/file_kind.h"
-#include "tagfield/base/spelling.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/files/staged_folder.h"
@@ -38,23 +37,12 @@ std::map<std::string, double> true_heights(const Truth& truth) {
 
 using ReadsOfTags = std::map<std::string, std::size_t>;
 
-/// Removes tags that the run doesn't contain, which are usually typos, with a warning of each.
-void drop_strangers(const std::string& file, const std::map<std::string, double>& heights,
-                    const ReadsOfTags& reads, std::vector<TagEstimate>& estimates,
-                    Diagnostics& diagnostics) {
-  std::vector<std::string> known;
-  known.reserve(heights.size());
-  for (const auto& [tag, height] : heights) known.push_back(tag);
-  std::vector<TagEstimate> of_run;
-  for (TagEstimate& estimate : estimates) {
-    if (heights.count(estimate.tag) > 0 || reads.count(estimate.tag) > 0) {
-      of_run.push_back(std::move(estimate));
-    } else {
-      diagnostics.warn({file, 0}, fmt::format("the run has no tag '{}'{}: it does not count",
-                                              estimate.tag, suggestion(estimate.tag, known)));
-    }
-  }
-  estimates = std::move(of_run);
+std::set<std::string> tags_of(const std::map<std::string, double>& heights,
+                              const ReadsOfTags& reads) {
+  std::set<std::string> tags;
+  for (const auto& [tag, height] : heights) tags.insert(tag);
+  for (const auto& [tag, count] : reads) tags.insert(tag);
+  return tags;
 }
 
 /// The estimates, and for each other tag of the run that it was never read or has no row in the
@@ -101,7 +89,8 @@ int score(const ScoreArguments& arguments) {
   const std::map<std::string, double> heights = true_heights(truth);
   std::vector<TagEstimate> estimates = read_estimates(arguments.estimates, heights, diagnostics);
   const ReadsOfTags of_tags = count_by_tag(reads);
-  drop_strangers(arguments.estimates, heights, of_tags, estimates, diagnostics);
+  drop_strangers({arguments.estimates, 0}, "the run has", tags_of(heights, of_tags), estimates,
+                 diagnostics);
   Summary summary;
   summary.scenario = arguments.run;
   summary.method = summary.method_asked = fs::path(arguments.estimates).filename().string();

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "tagfield/base/error.h"
+#include "tagfield/base/spelling.h"
 #include "tagfield/files/csv.h"
 
 namespace tagfield {
@@ -133,6 +133,18 @@ std::vector<TagEstimate> read_estimates_csv(const std::string& path, const Heigh
     add_row(rows, row, estimates[found->second]);
   }
   return estimates;
+}
+
+void drop_strangers(const Location& location, const std::string& whole,
+                    const std::set<std::string>& known, std::vector<TagEstimate>& estimates,
+                    Diagnostics& diagnostics) {
+  const std::vector<std::string> names(known.begin(), known.end());
+  std::erase_if(estimates, [&](const TagEstimate& estimate) {
+    if (known.count(estimate.tag) > 0) return false;
+    diagnostics.warn(location, fmt::format("{} no tag '{}'{}: it does not count", whole,
+                                           estimate.tag, suggestion(estimate.tag, names)));
+    return true;
+  });
 }
 
 }  // namespace tagfield

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "tagfield/base/error.h"
 #include "tagfield/localization/tag_estimate.h"
 
 namespace tagfield {
@@ -26,5 +28,11 @@ using HeightOfTag = std::function<double(const std::string& tag)>;
 /// it states covariances of 0, which tells it from none. In the order of the tags' first rows.
 /// Throws Error "FILE:LINE: …".
 std::vector<TagEstimate> read_estimates_csv(const std::string& path, const HeightOfTag& height);
+
+/// Removes the estimates of tags that are not `known`, which are usually typos, with a warning of
+/// each that begins with `whole`: "the run has".
+void drop_strangers(const Location& location, const std::string& whole,
+                    const std::set<std::string>& known, std::vector<TagEstimate>& estimates,
+                    Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -159,6 +159,14 @@ def a_stated_error_of_0_is_a_claim(context):
 
 
 @case
+def unknown_tags_of_a_command_are_warned_of(context):
+    entry, err = bench_of(context, "typo", "tag,x_m,y_m\nTAG1,1,2\ntag2,1,2\n")
+    check_equal((entry["located"], entry["not_located"]), (1, 9), "located, not located")
+    check_in("method 'mine': estimates.csv: the reads have no tag 'TAG1'", err, "stderr")
+    check("'tag2'" not in err, f"warned of a tag that is there: {err!r}")
+
+
+@case
 def suites_start_no_programs(context):
     mark = context.folder / "mark"
     path = suite(context, f'[hyperbola, {{name: mine, command: "touch {mark}; true"}}]')
