@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "tagfield/base/spelling.h"
 #include "tagfield/files/csv.h"
@@ -35,8 +37,9 @@ class EstimateRows {
   [[nodiscard]] double number(const CsvRow& row, const char* column) const {
     return table_.number(row, table_.column(column));
   }
-  [[nodiscard]] Verdict verdict(const CsvRow& row) const {
-    if (!has(row, "verdict")) return Verdict::kLocated;
+  /// None where the row does not say.
+  [[nodiscard]] std::optional<Verdict> verdict(const CsvRow& row) const {
+    if (!has(row, "verdict")) return std::nullopt;
     try {
       return verdict_from_string(word(row, "verdict"));
     } catch (const Error& error) {
@@ -84,17 +87,45 @@ class EstimateRows {
   const HeightOfTag& height_;
 };
 
+/// A tag's estimate, and what its rows say of the verdict.
+struct EstimateInTable {
+  TagEstimate estimate;
+  std::optional<Verdict> said;
+};
+
+/// Takes what a row says of its tag's verdict, which must be the same in all that say it.
+void take_verdict(const Location& location, const std::optional<Verdict>& said,
+                  EstimateInTable& of_tag) {
+  if (!said) return;
+  if (of_tag.said && *of_tag.said != *said) {
+    fail(location, fmt::format("tag '{}' is {} here, but {} in a row above: expected one verdict",
+                               of_tag.estimate.tag, to_string(*said), to_string(*of_tag.said)));
+  }
+  of_tag.said = said;
+}
+
 /// Adds a row to a tag's estimate.
-void add_row(const EstimateRows& rows, const CsvRow& row, TagEstimate& estimate) {
+void add_row(const EstimateRows& rows, const CsvRow& row, const Location& location,
+             EstimateInTable& of_tag) {
+  TagEstimate& estimate = of_tag.estimate;
   if (rows.has(row, "reads")) {
     estimate.reads = static_cast<std::size_t>(std::max(rows.number(row, "reads"), 0.0));
   }
   estimate.reason = rows.word(row, "reason");
-  estimate.verdict = rows.verdict(row);
-  if (estimate.verdict != Verdict::kNotLocated) {
-    estimate.candidates.push_back(rows.candidate(row, estimate.tag));
-    if (estimate.candidates.size() > 1) estimate.verdict = Verdict::kAmbiguous;
-  }
+  take_verdict(location, rows.verdict(row), of_tag);
+  if (of_tag.said == Verdict::kNotLocated) return;
+  estimate.candidates.push_back(rows.candidate(row, estimate.tag));
+}
+
+/// With the verdict that the rows give, or else that of their number. Only the best position of a
+/// located tag counts.
+TagEstimate with_verdict(EstimateInTable of_tag) {
+  TagEstimate& estimate = of_tag.estimate;
+  const bool several = estimate.candidates.size() > 1;
+  estimate.verdict = of_tag.said.value_or(several ? Verdict::kAmbiguous : Verdict::kLocated);
+  if (estimate.verdict == Verdict::kNotLocated) estimate.candidates.clear();
+  if (estimate.verdict == Verdict::kLocated) estimate.candidates.resize(1);
+  return std::move(estimate);
 }
 
 }  // namespace
@@ -124,14 +155,17 @@ std::string estimates_to_csv(const std::vector<TagEstimate>& estimates) {
 std::vector<TagEstimate> read_estimates_csv(const std::string& path, const HeightOfTag& height) {
   const CsvTable table = read_csv(path);
   const EstimateRows rows(table, height);
-  std::vector<TagEstimate> estimates;
+  std::vector<EstimateInTable> tags;
   std::map<std::string, std::size_t> numbers;
   for (const CsvRow& row : table.rows) {
     const std::string& tag = table.text(row, table.column("tag"));
-    const auto [found, is_new] = numbers.emplace(tag, estimates.size());
-    if (is_new) estimates.emplace_back().tag = tag;
-    add_row(rows, row, estimates[found->second]);
+    const auto [found, is_new] = numbers.emplace(tag, tags.size());
+    if (is_new) tags.emplace_back().estimate.tag = tag;
+    add_row(rows, row, {path, row.line}, tags[found->second]);
   }
+  std::vector<TagEstimate> estimates;
+  estimates.reserve(tags.size());
+  for (EstimateInTable& of_tag : tags) estimates.push_back(with_verdict(std::move(of_tag)));
   return estimates;
 }
 

@@ -23,10 +23,10 @@ using HeightOfTag = std::function<double(const std::string& tag)>;
 
 /// Reads the table, written by Tagfield or by other programs: `tag,x_m,y_m`, and any of the other
 /// columns. Without `verdict` a tag with one row is located, one with several, best first, is
-/// ambiguous. Without `z_m` the height is that of `height`; without `expected_error_m` it is
-/// √(cov_xx + cov_yy), or 0. An `expected_error_m` of 0 gives way to covariances, and without any
-/// it states covariances of 0, which tells it from none. In the order of the tags' first rows.
-/// Throws Error "FILE:LINE: …".
+/// ambiguous; of one said to be located only the first row counts. Without `z_m` the height is that
+/// of `height`; without `expected_error_m` it is √(cov_xx + cov_yy), or 0. An `expected_error_m` of
+/// 0 gives way to covariances, and without any it states covariances of 0, which tells it from
+/// none. In the order of the tags' first rows. Throws Error "FILE:LINE: …".
 std::vector<TagEstimate> read_estimates_csv(const std::string& path, const HeightOfTag& height);
 
 /// Removes the estimates of tags that are not `known`, which are usually typos, with a warning of

@@ -91,10 +91,28 @@ def says_why_a_tag_has_no_position_or_no_error(context):
 
 
 @case
+def a_verdict_overrides_the_number_of_rows(context):
+    folder = context.simulate(SCENARIO, "--record-only")
+    truth = {row["tag"]: row for row in read_csv(folder / "truth/tags.csv")}
+    exact = f"{truth['tag1']['x_m']},{truth['tag1']['y_m']}"
+    table = context.write("e.csv", f"tag,x_m,y_m,verdict\ntag1,{exact},located\ntag1,0,0,located\n"
+                                   "tag2,0,0,not_located\ntag2,1,1,not_located\ntag3,0,0,ambiguous\n"
+                                   "tag4,0,0,\ntag4,1,1,\ntag5,0,0,\ntag5,1,1,located\n")
+    result = context.run_well("score", table, "--run", folder, "--json")
+    tags = {tag["id"]: tag for tag in json.loads(result.out)["tags"]}
+    check_equal([tags[f"tag{i}"]["verdict"] for i in range(1, 6)],
+                ["located", "not_located", "ambiguous", "ambiguous", "located"], "verdicts")
+    check_near(tags["tag1"]["error_m"], 0, 1e-9, "error of the first row")
+    check_equal(len(tags["tag1"]["candidates_m"]), 1, "candidates of a located tag")
+    check_equal(tags["tag5"]["estimate_m"][:2], [0, 0], "the first row")
+
+
+@case
 def says_what_is_wrong_in_a_line(context):
     folder = context.simulate(SCENARIO, "--record-only")
     for text, said in (("tag,x_m\na,1\n", "y_m"), ("tag,x_m,y_m\na,1,nan\n", ":2: "),
                        ("tag,x_m,y_m,verdict\na,1,2,sure\n", ":2: "),
+                       ("tag,x_m,y_m,verdict\na,1,2,located\na,1,2,ambiguous\n", ":3: tag 'a' is ambiguous here, but"),
                        ("tag,x_m,y_m,expected_error_m\na,1,2,-1\n", "expected_error_m is below 0"),
                        ("tag,x_m,y_m,cov_xx,cov_xy,cov_yy\na,1,2,1,5,1\n", "not a covariance")):
         result = context.run("score", context.write("e.csv", text), "--run", folder)
