@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <thread>
 
 namespace tagfield {
@@ -35,6 +37,18 @@ const std::atomic<bool>& interrupted() { return interrupt_flag; }
 void catch_interrupts() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+}
+
+std::string output_fault() {
+  constexpr const char* kFault = "the standard output can't be written";
+  if (std::fflush(stdout) != 0) return fmt::format("{}: {}", kFault, std::strerror(errno));
+  // An earlier write failed, whose errno other calls have overwritten since.
+  return std::ferror(stdout) != 0 ? kFault : "";
+}
+
+void flush_output() {
+  const std::string fault = output_fault();
+  if (!fault.empty()) throw Error(fault);
 }
 
 int default_threads() {

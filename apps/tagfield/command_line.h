@@ -24,6 +24,13 @@ void print_warnings(const Diagnostics& diagnostics);
 const std::atomic<bool>& interrupted();
 void catch_interrupts();
 
+/// Flushes the standard output; returns what is wrong if not all that was printed could be written,
+/// else "".
+std::string output_fault();
+/// Flushes the standard output, where somebody waits for what was printed. Throws Error if it can't
+/// be written.
+void flush_output();
+
 /// Default number of threads: all of the machine's.
 int default_threads();
 

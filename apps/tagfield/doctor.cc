@@ -41,7 +41,7 @@ struct Ability {
 /// Output of a command, without the trailing line end; none if it fails or takes longer than a
 /// minute. `command` is a literal from this file.
 std::optional<std::string> output_of(const std::string& command) {
-  std::fflush(stdout);
+  flush_output();
   // The memory limit of this program must not apply to others, some of which reserve a lot and use
   // little.
   const std::string line = fmt::format(

@@ -5,13 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <new>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -107,8 +106,9 @@ std::atomic<bool> memory_ran_out{false};
 
 /// Checks that all output was written: its last part is flushed only now.
 int with_output_checked(int code) {
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-  fmt::print(stderr, "tagfield: the standard output can't be written: {}\n", std::strerror(errno));
+  const std::string fault = tagfield::output_fault();
+  if (fault.empty()) return code;
+  fmt::print(stderr, "tagfield: {}\n", fault);
   return tagfield::kExitBadInput;
 }
 

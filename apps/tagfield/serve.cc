@@ -160,7 +160,7 @@ void print_addresses(const std::vector<llrp::LlrpAddress>& readers, const std::s
     if (!readers.empty()) fmt::print("Readers are silent until LLRP clients start them.\n");
     if (!page.empty()) fmt::print("http: {}\n", page);
   }
-  std::fflush(stdout);
+  flush_output();
 }
 
 LiveOptions live_options(const ServeArguments& arguments) {

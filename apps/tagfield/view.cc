@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <thread>
@@ -93,7 +92,7 @@ int view(const ViewArguments& arguments) {
   } else {
     fmt::print("http: {}\n", server.url());
   }
-  std::fflush(stdout);
+  flush_output();
   while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return kExitOk;
 }

@@ -1252,7 +1252,18 @@ def output_that_cannot_be_printed(context):
                                   text=True, check=False)
         check_equal(done.returncode, 2, f"exit code of {words[0]} into a full device")
         check_in("the standard output can't be written: No space", done.stderr, "complaint")
+    # A server whose address nobody can read must not go on.
+    for words in (["serve", path, "--http", "0"], ["serve", path, "--http", "0", "--json"]):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([context.tagfield, *words], stdout=full, stderr=subprocess.PIPE,
+                                  text=True, check=False, timeout=60)
+        check_equal(done.returncode, 2, f"exit code of {words} into a full device")
+        check_in("the standard output can't be written: No space", done.stderr, "complaint")
     context.run_well("run", path, "--no-page", "--out", "open")
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        done = subprocess.run([context.tagfield, "view", "open", "--http", "0"], cwd=context.folder, stdout=full,
+                              stderr=subprocess.PIPE, text=True, check=False, timeout=60)
+    check_equal(done.returncode, 2, "exit code of view into a full device")
     closed = f'"{context.tagfield}" run "{path}" --no-page --out closed >&- 2>&-'
     done = subprocess.run(["sh", "-c", closed], cwd=context.folder, check=False)
     check_equal(done.returncode, 0, "exit code with a closed output")
