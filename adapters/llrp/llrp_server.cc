@@ -251,13 +251,16 @@ void turn_away(tcp::socket socket, std::uint64_t utc_us) {
 }
 
 /// A client could not distinguish two tags with the same EPC.
+[[noreturn]] void refuse_same_epc(const std::string& earlier, const TagSpec& tag) {
+  fail(tag.location, fmt::format("tags '{}' and '{}' would have the same EPC, {}", earlier, tag.id,
+                                 to_hex(epc_of_id(tag.id))));
+}
+
 void require_different_epcs(const Scenario& scenario) {
   std::map<Words, std::string> seen;
   for (const TagSpec& tag : scenario.tags) {
     const auto [other, is_new] = seen.emplace(epc_of_id(tag.id), tag.id);
-    if (is_new) continue;
-    fail(tag.location, fmt::format("tags '{}' and '{}' would have the same EPC, {}", other->second,
-                                   tag.id, to_hex(other->first)));
+    if (!is_new) refuse_same_epc(other->second, tag);
   }
 }
 
@@ -364,6 +367,14 @@ void LlrpServer::on_read(const TagRead& read) {
 
 void LlrpServer::on_step(LiveWorld& world, Time now) {
   for (const auto& endpoint : impl_->endpoints()) endpoint->reader->on_step(world, now);
+}
+
+void LlrpServer::check_new_tag(const LiveWorld& world, const TagSpec& tag) {
+  const Words epc = epc_of_id(tag.id);
+  for (const TagSpec& other : world.scenario().tags) {
+    // A tag with the same ID that has gone is replaced.
+    if (other.id != tag.id && epc_of_id(other.id) == epc) refuse_same_epc(other.id, tag);
+  }
 }
 
 }  // namespace tagfield::llrp

@@ -47,6 +47,8 @@ class LlrpServer final : public ReadListener, public LiveMember {
 
   void on_read(const TagRead& read) override;
   void on_step(LiveWorld& world, Time now) override;
+  /// Throws Error if the tag would have the EPC of another one.
+  void check_new_tag(const LiveWorld& world, const TagSpec& tag) override;
 
  private:
   class Impl;

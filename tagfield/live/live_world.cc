@@ -293,6 +293,7 @@ void LiveWorld::add_tag(const TagSpec& tag) {
   if (tag.motion.empty()) throw Error(fmt::format("tag '{}' has no position", tag.id));
   for (const StampedPose& pose : tag.motion) require_finite(pose.X_WB, "tag '" + tag.id + "'");
   if (is_epc_uri(tag.id)) epc_from_uri(tag.id);
+  for (const auto& member : impl_->members) member->check_new_tag(*this, tag);
   impl_->simulation.add_tag(tag);
   std::vector<TagSpec>& tags = impl_->scenario.tags;
   // Replaces a tag with the same ID that has gone or is still to appear.

@@ -32,6 +32,8 @@ class LiveMember {
   virtual void on_step(LiveWorld& world, Time now) = 0;
   /// Called after tasks were done, and from time to time while paused.
   virtual void on_tasks(LiveWorld& /*world*/) {}
+  /// Called before a tag is added; throws Error on one that this participant can't cope with.
+  virtual void check_new_tag(const LiveWorld& /*world*/, const TagSpec& /*tag*/) {}
 };
 
 /// An antenna of a live world, as it is now.

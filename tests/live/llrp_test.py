@@ -598,5 +598,19 @@ def it_ends_within_a_second(context):
         check_between(time.monotonic() - begin, 0, 1, "time to end [s]")
 
 
+@case
+def tags_of_the_same_epc_are_refused(context):
+    """The tag of the ID "tag_01" has the EPC of its bytes, which is also the hexadecimal ID of another."""
+    twin = {"id": b"tag_01".ljust(12, b"\0").hex().upper(), "position": [1, 1, 1]}
+    with served(context, context.shipped(PORTAL), "--llrp", "0") as server:
+        status, answer = server.ask("POST", "/api/tags", twin)
+        check_equal((status, list(answer)), (400, ["error"]), "the answer to a tag with the EPC of tag_01")
+        check_in(f"tags 'tag_01' and '{twin['id']}' would have the same EPC, {twin['id']}", answer["error"], "message")
+        check(twin["id"] not in {tag["id"] for tag in server.get("/api/tags")["tags"]}, "the tag was added")
+        server.post("/api/tags", {"id": "E2801160", "position": [1, 1, 1]})
+    with served(context, context.shipped(PORTAL)) as server:
+        server.post("/api/tags", twin)  # Without LLRP nobody takes one for the other.
+
+
 if __name__ == "__main__":
     main()
