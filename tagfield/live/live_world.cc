@@ -286,7 +286,7 @@ void LiveWorld::resume() { impl_->clock.resume(now(), std::chrono::steady_clock:
 
 void LiveWorld::advance(Duration simulated) {
   if (simulated <= Duration::zero()) throw Error("a step must be longer than 0 s");
-  impl_->clock.run_until(now() + simulated, now(), std::chrono::steady_clock::now());
+  impl_->clock.run_for(simulated, now(), std::chrono::steady_clock::now());
 }
 
 void LiveWorld::add_tag(const TagSpec& tag) {

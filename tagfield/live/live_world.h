@@ -91,7 +91,9 @@ class LiveWorld {
   void set_speed(double speed);  ///< Throws Error unless it is from 0 to 1e6.
   void pause();
   void resume();
-  /// Runs for `simulated`, then pauses again.
+  /// Runs for `simulated`, then pauses again. It runs in whole time steps of the scenario: what one
+  /// advance() goes too far, the next one goes less, unless there was a pause() or resume()
+  /// between.
   void advance(Duration simulated);
   /// When the step of an advance() ends; none if there is none, or it is over.
   [[nodiscard]] std::optional<Time> step_end() const;

@@ -177,6 +177,17 @@ def time_goes_as_requested(context):
 
 
 @case
+def short_steps_add_up(context):
+    with served(context, context.shipped(PORTAL), "--paused", "--set", "time_step_s=0.01") as server:
+        for _ in range(20):
+            server.post("/api/step", {"seconds": 0.005})
+            status = server.wait_for(lambda now: now["paused"], "it is paused after a step")
+        check_near(status["time"], 0.1, 1e-9, "time after 20 steps of 0.005 s")
+        for seconds in (1e-7, 2e6):
+            check_equal(server.ask("POST", "/api/step", {"seconds": seconds})[0], 400, f"a step of {seconds} s")
+
+
+@case
 def second_step_does_not_replace_the_first(context):
     with served(context, context.shipped(PORTAL), "--paused") as server:
         server.post("/api/step", {"seconds": 1.5})

@@ -46,6 +46,11 @@ void LiveClock::run_until(Time until, Time now, Wall wall) {
   measure_from(now, wall);
 }
 
+void LiveClock::run_for(Duration simulated, Time now, Wall wall) {
+  const bool went_too_far = is_paused(now) && until_ != Time::min();
+  run_until((went_too_far ? until_ : now) + simulated, now, wall);
+}
+
 std::optional<Time> LiveClock::step_end(Time now) const {
   if (is_paused(now) || until_ == Time::max()) return std::nullopt;
   return until_;

@@ -28,6 +28,9 @@ class LiveClock {
   void resume(Time now, Wall wall);
   /// Runs until `until`, then pauses.
   void run_until(Time until, Time now, Wall wall);
+  /// Runs for `simulated`, then pauses. What the last such run went too far, as it ended between
+  /// two steps of the simulation, is taken off, unless there was a pause() or resume() since.
+  void run_for(Duration simulated, Time now, Wall wall);
 
   /// Wall-clock time at which the step that ends at `end` may end.
   [[nodiscard]] Wall due(Time end) const;

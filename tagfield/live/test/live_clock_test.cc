@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace tagfield {
 namespace {
 
@@ -39,6 +41,26 @@ TEST(LiveClock, RunsUntilAndIsPausedThen) {
   EXPECT_FALSE(clock.is_paused(at(0.49)));
   EXPECT_TRUE(clock.is_paused(at(0.5)));
   EXPECT_EQ(clock.due(at(0.5)), wall(seconds(10) + milliseconds(250)));
+}
+
+TEST(LiveClock, RunsAddUpToWhatWasAsked) {
+  LiveClock clock(0.0, true);
+  double now = 0.0;
+  const auto run_for = [&](double length) {
+    clock.run_for(duration_from_seconds(length), at(now), wall(seconds(0)));
+    while (!clock.is_paused(at(now))) now += 0.25;  // The simulation's steps.
+  };
+  std::vector<double> ends;
+  for (int i = 0; i < 6; ++i) {
+    run_for(0.125);
+    ends.push_back(now);
+  }
+  EXPECT_EQ(ends, (std::vector<double>{0.25, 0.25, 0.5, 0.5, 0.75, 0.75}));
+  run_for(0.0625);
+  EXPECT_EQ(now, 1.0);
+  clock.pause();
+  run_for(0.125);
+  EXPECT_EQ(now, 1.25);
 }
 
 TEST(LiveClock, TellsWhenAStepEnds) {
