@@ -5,9 +5,9 @@
 
 #include <cctype>
 #include <charconv>
+#include <map>
 #include <optional>
 
-#include "tagfield/base/error.h"
 #include "tagfield/epc/epc.h"
 
 namespace tagfield {
@@ -110,6 +110,24 @@ std::string topic_level(const std::string& name) {
       c = '_';
   }
   return level;
+}
+
+void check_reader_topics(const std::set<std::string>& readers, Diagnostics& diagnostics) {
+  std::map<std::string, std::string> readers_of;
+  for (const std::string& reader : readers) {
+    const auto [other, is_new] = readers_of.emplace(topic_level(reader), reader);
+    if (!is_new) {
+      throw Error(
+          fmt::format("--mqtt: readers '{}' and '{}' would have the same topic, …/reads/{}: "
+                      "expected names that differ by more than '/', '+', '#' and '_'",
+                      other->second, reader, other->first));
+    }
+    if (other->first == reader) continue;
+    diagnostics.warn(
+        fmt::format("--mqtt: the topic of reader '{}' is …/reads/{}, as topics can't "
+                    "have '/', '+', '#' or control characters in a name",
+                    reader, other->first));
+  }
 }
 
 }  // namespace tagfield

@@ -3,7 +3,10 @@
 /// URLs of MQTT brokers.
 #pragma once
 
+#include <set>
 #include <string>
+
+#include "tagfield/base/error.h"
 
 namespace tagfield {
 
@@ -26,5 +29,9 @@ std::string broker_name(const MqttUrl& url);
 
 /// A name as one level of a topic: '/', '+', '#' and control characters become '_'.
 std::string topic_level(const std::string& name);
+
+/// Warns of each reader whose topic has another name. Throws Error if two readers would share a
+/// topic: their subscribers could not tell them apart.
+void check_reader_topics(const std::set<std::string>& readers, Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <vector>
 
+#include "adapters/mqtt/mqtt_url.h"
 #include "apps/tagfield/command_line.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/events/epcis.h"
@@ -96,6 +98,14 @@ void warn_of_missing_readers(const std::string& file, const EventsSpec& spec,
     for (const std::string& name : logical.antennas) warn_unless_among(antennas, name, "antenna");
     for (const std::string& name : logical.readers) warn_unless_among(readers, name, "reader");
   }
+}
+
+void check_topics(const MiddlewareArguments& arguments, const Scenario& scenario,
+                  Diagnostics& diagnostics) {
+  if (arguments.broker.empty()) return;
+  std::set<std::string> readers;
+  for (const AntennaSpec& antenna : scenario.antennas) readers.insert(antenna.parameters.reader);
+  check_reader_topics(readers, diagnostics);
 }
 
 MiddlewareRun attach_middleware(const MiddlewareArguments& arguments,

@@ -57,6 +57,10 @@ std::optional<EventsSpec> events_spec_of(const MiddlewareArguments& arguments);
 void warn_of_missing_readers(const std::string& file, const EventsSpec& spec,
                              const Scenario& scenario, Diagnostics& diagnostics);
 
+/// With --mqtt, see check_reader_topics().
+void check_topics(const MiddlewareArguments& arguments, const Scenario& scenario,
+                  Diagnostics& diagnostics);
+
 /// `spec`: see events_spec_of(). Times are `start`, since 1970, plus stamps.
 MiddlewareRun attach_middleware(const MiddlewareArguments& arguments,
                                 const std::optional<EventsSpec>& spec, Time start,

@@ -183,6 +183,7 @@ int serve(ServeArguments arguments) {
   const std::uint64_t seed = arguments.of_scenario.seed.value_or(scenario.seed);
   std::string plan = plan_of(arguments, diagnostics);
   if (spec) warn_of_missing_readers(arguments.middleware.spec, *spec, scenario, diagnostics);
+  check_topics(arguments.middleware, scenario, diagnostics);
   print_warnings(diagnostics);
   require_token(arguments);
 

@@ -80,6 +80,7 @@ int stream(const StreamArguments& arguments) {
     world = navigation_world(scenario, loaded.scene, diagnostics);
   }
   if (spec) warn_of_missing_readers(arguments.middleware.spec, *spec, scenario, diagnostics);
+  check_topics(arguments.middleware, scenario, diagnostics);
   if (scenario.duration_s) warn_of_late_tags(scenario, *scenario.duration_s, diagnostics);
   print_warnings(diagnostics);
   const Time start = start_time("stream", arguments.start, Time{});

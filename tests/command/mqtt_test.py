@@ -288,5 +288,16 @@ def bad_input_is_said_in_a_line(context):
         check_equal(result.err.count("\n"), 1, f"lines of complaint of {words}")
 
 
+@case
+def readers_have_topics_of_their_own(context):
+    scenario, port = context.shipped("two_antennas"), free_port()
+    names = ("--set", "antennas.mobile.reader=dock/1", "--set", "antennas.fixed.reader=dock_1")
+    for verb in ("stream", "serve"):
+        result = context.run(verb, scenario, "--mqtt", f"mqtt://127.0.0.1:{port}", *names)
+        check_equal((result.code, result.out, result.err.count("\n")), (2, "", 1), f"{verb}: {result.err!r}")
+        check_in("readers 'dock/1' and 'dock_1' would have the same topic, …/reads/dock_1", result.err, verb)
+    context.run_well("stream", scenario, "--speed", "0", *names)  # Without MQTT there is nothing to refuse.
+
+
 if __name__ == "__main__":
     main()

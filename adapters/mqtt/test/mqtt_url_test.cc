@@ -47,5 +47,16 @@ TEST(TopicLevel, HasNoWildcardsAndNoLevelsOfItsOwn) {
   EXPECT_EQ(topic_level("a/b+c#d\n"), "a_b_c_d_");
 }
 
+TEST(ReaderTopics, AreWarnedOfIfChangedAndRefusedIfTheSame) {
+  Diagnostics diagnostics;
+  check_reader_topics({"", "dock 3", "dock/1", "dock_2"}, diagnostics);
+  ASSERT_EQ(diagnostics.warnings().size(), 1U);
+  EXPECT_TRUE(contains(diagnostics.warnings()[0], "reader 'dock/1' is …/reads/dock_1"));
+  const std::string message = error_of([&] {
+    check_reader_topics({"dock/1", "dock_1"}, diagnostics);
+  });
+  EXPECT_TRUE(contains(message, "readers 'dock/1' and 'dock_1' would have the same topic"));
+}
+
 }  // namespace
 }  // namespace tagfield
