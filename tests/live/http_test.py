@@ -453,6 +453,26 @@ def what_is_too_much_or_no_http_is_refused(context):
 
 
 @case
+def expectations_are_answered_before_the_body(context):
+    with served(context, context.shipped(PORTAL), "--paused") as server:
+        def asked(client, kind, origin=""):
+            client.sendall((f"POST /api/step HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n{origin}"
+                            f"Content-Type: {kind}\r\nExpect: 100-continue\r\nContent-Length: 16\r\n\r\n").encode())
+            return client.recv(65536)
+        with socket.create_connection(("127.0.0.1", server.port), timeout=20) as client:
+            for _ in range(2):  # also the second one of a connection
+                check_equal(asked(client, "application/json"), b"HTTP/1.1 100 Continue\r\n\r\n", "the first answer")
+                client.sendall(b'{"seconds": 0.5}')
+                check_equal(client.recv(65536)[:12], b"HTTP/1.1 200", "the answer after the body")
+                status = server.wait_for(lambda now: now["paused"], "it is paused after the step")
+        check_near(status["time"], 1, 1e-9, "time after both steps")
+        for kind, origin, expected in (("text/plain", "", b"415"),
+                                       ("application/json", "Origin: http://evil.com\r\n", b"403")):
+            with socket.create_connection(("127.0.0.1", server.port), timeout=20) as client:
+                check_equal(asked(client, kind, origin)[9:12], expected, f"{kind} {origin!r}")
+
+
+@case
 def garbage_harms_nobody(context):
     with served(context, context.shipped(PORTAL), "--speed", "5") as server:
         rng = random.Random(1)

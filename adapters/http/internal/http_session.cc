@@ -4,8 +4,10 @@
 #include <array>
 #include <boost/asio/dispatch.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/bind_handler.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/string.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
@@ -65,8 +67,12 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
  private:
   using Response = http::response<http::string_body>;
 
+  void on_header(beast::error_code error);
+  [[nodiscard]] bool waits_for_continue() const;
+  void answer_expectation();
+  void read_body();
   void on_read(beast::error_code error);
-  [[nodiscard]] std::optional<ApiResponse> refusal(const Request& request) const;
+  [[nodiscard]] std::optional<ApiResponse> refusal(const Request& request, bool has_body) const;
   void handle(Request request);
   void ask(const Request& request);
   void on_answer(const ApiAnswer& answer);
@@ -94,6 +100,40 @@ void HttpSession::read() {
   parser_->body_limit(kMaxBody);
   parser_->header_limit(kMaxHeader);
   stream_.expires_after(kPatience);
+  http::async_read_header(stream_, buffer_, *parser_,
+                          [self = shared_from_this()](beast::error_code error, std::size_t) {
+                            self->on_header(error);
+                          });
+}
+
+void HttpSession::on_header(beast::error_code error) {
+  if (error) return on_read(error);
+  if (waits_for_continue()) return answer_expectation();
+  read_body();
+}
+
+/// Whether the client sends the body only after a "100 Continue", as curl does with long ones.
+bool HttpSession::waits_for_continue() const {
+  const Request& request = parser_->get();
+  return request.version() >= 11 && !parser_->is_done() && buffer_.size() == 0 &&
+         beast::iequals(request[http::field::expect], "100-continue");
+}
+
+void HttpSession::answer_expectation() {
+  static constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+  if (const auto refused = refusal(parser_->get(), true)) {
+    keep_alive_ = false;  // Nobody knows whether the body will come.
+    version_ = parser_->get().version();
+    return respond(*refused);
+  }
+  asio::async_write(stream_, asio::buffer(kContinue),
+                    [self = shared_from_this()](beast::error_code error, std::size_t) {
+                      if (error) return self->close();
+                      self->read_body();
+                    });
+}
+
+void HttpSession::read_body() {
   http::async_read(
       stream_, buffer_, *parser_,
       [self = shared_from_this()](beast::error_code error, std::size_t) { self->on_read(error); });
@@ -116,7 +156,7 @@ void HttpSession::on_read(beast::error_code error) {
 }
 
 /// Response that refuses the request; none if it is acceptable.
-std::optional<ApiResponse> HttpSession::refusal(const Request& request) const {
+std::optional<ApiResponse> HttpSession::refusal(const Request& request, bool has_body) const {
   const auto field = [&](http::field name) {
     const auto value = request[name];
     return std::string_view(value.data(), value.size());
@@ -136,8 +176,7 @@ std::optional<ApiResponse> HttpSession::refusal(const Request& request) const {
     return api_error(
         401, "commands need 'Authorization: Bearer TOKEN', with the token printed at start");
   }
-  if (!request.body().empty() &&
-      field(http::field::content_type).substr(0, 16) != "application/json") {
+  if (has_body && field(http::field::content_type).substr(0, 16) != "application/json") {
     return api_error(415, "a body must be of the type application/json");
   }
   return std::nullopt;
@@ -146,7 +185,7 @@ std::optional<ApiResponse> HttpSession::refusal(const Request& request) const {
 void HttpSession::handle(Request request) {
   keep_alive_ = request.keep_alive();
   version_ = request.version();
-  if (const auto refused = refusal(request)) return respond(*refused);
+  if (const auto refused = refusal(request, !request.body().empty())) return respond(*refused);
   const auto target = request.target();
   const std::string_view path = std::string_view(target.data(), target.size());
   const bool is_get = request.method() == http::verb::get;
