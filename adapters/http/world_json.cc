@@ -186,7 +186,7 @@ Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size
           {"robot", spec.on},
           {"pose", pose_json(X_WA)},
           {"model", meets_world(parameters) ? "physical" : "paper"},
-          {"range", nominal_range_m(parameters, kinds)},
+          {"range", largest_range_m(parameters, kinds)},
           {"frequency", nominal_frequency_hz(parameters)},
           {"power_dbm", power_dbm ? Json(*power_dbm) : Json(nullptr)},
           {"beam", beam_json(parameters)}};

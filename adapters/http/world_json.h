@@ -34,7 +34,7 @@ Json paths_json(const Scenario& scenario);
 /// Gain relative to the maximum [dB], on a grid of the angle off the boresight and the azimuth
 /// about it; null for the paper's antenna, which has no pattern.
 Json beam_json(const AntennaParameters& antenna);
-/// `kinds`: of the tags, for the range (see nominal_range_m()).
+/// `kinds`: of the tags, for the range (see largest_range_m()).
 Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size_t port,
                   const std::vector<std::shared_ptr<const TagModel>>& kinds);
 
