@@ -118,7 +118,7 @@ Eigen::Vector3d pose_error_at(const JointSystem& system, const JointTag& tag, In
   const double w = tag.knot_weight[i];
   const auto k = static_cast<std::size_t>(at);
   Eigen::Vector3d error = (1.0 - w) * (knots.scale[k] * padded(system.u, at, knots.size)) +
-                                w * (knots.scale[k + 1] * padded(system.u, at + 1, knots.size));
+                          w * (knots.scale[k + 1] * padded(system.u, at + 1, knots.size));
   if (knots.size < 3) error.z() = 0.0;
   return error;
 }

@@ -111,8 +111,8 @@ RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics) {
     const YamlValue file = map.at("tag_profile");
     append_profile(file, {ProfileKind::kTag}, defaults.tag_parameters);
     defaults.tag_profile = file.text();
-    defaults.tag = tag_model_from(defaults.tag_profile, defaults.tag_parameters, file.location(),
-                                  diagnostics);
+    defaults.tag =
+        tag_model_from(defaults.tag_profile, defaults.tag_parameters, file.location(), diagnostics);
   }
   return defaults;
 }

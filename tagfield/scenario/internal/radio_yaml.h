@@ -23,7 +23,7 @@ struct RadioDefaults {
   PropagationModel model = PropagationModel::kPaper;
   /// `diffraction`, `interference`, `tag_coupling`; overridden by an antenna's own.
   std::vector<RawParameter> antenna;
-  std::vector<RawParameter> without;  ///< Added to an antenna's own.
+  std::vector<RawParameter> without;                          ///< Added to an antenna's own.
   std::shared_ptr<const TagModel> tag = default_tag_model();  ///< By `tag_profile`.
   /// Its name and parameters; a tag's own settings override them.
   std::string tag_profile = "tag";
