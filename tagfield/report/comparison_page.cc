@@ -22,7 +22,7 @@ std::string signed_length(double length_m) {
 }
 
 std::string signed_count(double first, double second) {
-  const std::string text = tally(std::abs(second - first));
+  std::string text = tally(std::abs(second - first));
   if (text == "0") return text;
   return (second > first ? "+" : "−") + text;
 }

@@ -37,6 +37,7 @@ std::size_t number_of_reader(const InventorySummary& inventory, const std::strin
 /// The antennas' names, short enough for the figure.
 std::vector<std::string> names_of(const std::vector<const InventoryShare*>& rows) {
   std::vector<std::string> names;
+  names.reserve(rows.size());
   for (const InventoryShare* const row : rows) names.push_back(row->name);
   return distinct_names(names, kLongestName);
 }
