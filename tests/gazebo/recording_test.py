@@ -118,7 +118,7 @@ def without_ros_and_killed_it_is_there_too(context):
         return
     result = context.run("localize", folder / names[0], "--out", "out")
     check_equal(result.code, 0, f"exit code ({result.err[-300:]})")
-    check_in("the file ends without a DataEnd record", result.err, "warnings")
+    check_in("the file is cut off or broken here: it ends without its last records", result.err, "warnings")
     check(len(read_csv(context.folder / "out/reads.csv")) > 1000, "few reads")
 
 
