@@ -46,7 +46,7 @@ bool has_outliers(const OutlierMixture& mixture);
 /// stops. `probability` as of outlier_mixture(), in the order of the phases.
 bool are_scattered(const TagPhases& phases, const Eigen::ArrayXd& probability);
 
-/// Residuals at a position, and what makes them outliers; nullopt if none are.
+/// The outliers among the residuals; nullopt if there are none, or they come in a row.
 std::optional<OutlierMixture> outliers_at(const HologramPeak& there);
 
 /// Removes the likely outliers from one tag's samples and returns their number.

@@ -2,14 +2,17 @@
 #include "tagfield/planning/coverage.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/planning/internal/antenna_place.h"
 #include "tagfield/planning/internal/tag_coverage.h"
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
@@ -110,6 +113,28 @@ CoverageAntenna antenna_of(const Scenario& scenario, const std::vector<DriveSamp
 
 void throw_if_stopped(const CoverageRequest& request) {
   if (request.stop != nullptr && *request.stop) throw Error("coverage: interrupted");
+}
+
+void warn_of_effects_left_out(const Scenario& scenario, Diagnostics& diagnostics) {
+  std::set<std::string> readers;
+  bool interferes = false;
+  bool couples = false;
+  bool captures = false;
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    const RadioModel* const model = physical(antenna.parameters);
+    if (model == nullptr) continue;
+    readers.insert(antenna.parameters.reader);
+    interferes = interferes || is_disturbed(*model);
+    couples = couples || couples_tags(*model);
+    captures = captures || (takes_inventory(*model) && model->gen2->inventory.capture_db);
+  }
+  std::vector<std::string> left_out;
+  if (interferes && readers.size() > 1) left_out.emplace_back("interference of other readers");
+  if (couples && scenario.tags.size() > 1) left_out.emplace_back("coupling of tags");
+  if (captures) left_out.emplace_back("capture of colliding replies (capture_db)");
+  if (left_out.empty()) return;
+  diagnostics.warn(fmt::format("left out of coverage and forecast, unlike in a run: {}",
+                               fmt::join(left_out, ", ")));
 }
 
 Coverage cover(const Scenario& scenario, const std::vector<DriveSample>& samples,

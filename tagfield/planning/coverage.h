@@ -32,6 +32,10 @@ struct CoverageRequest {
   std::function<void(double share)> on_progress;  ///< Called from time to time; may be empty.
 };
 
+/// Warns of effects that the scenario enables and that maps of coverage and the forecast of a run
+/// leave out: interference of other readers, coupling of tags, capture.
+void warn_of_effects_left_out(const Scenario& scenario, Diagnostics& diagnostics);
+
 /// Grid and tags of the request over all poses of `samples`; texts are left to the caller. Throws
 /// Error if it was stopped.
 Coverage cover(const Scenario& scenario, const std::vector<DriveSample>& samples,

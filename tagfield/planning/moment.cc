@@ -2,12 +2,8 @@
 #include "tagfield/planning/moment.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <set>
 
 #include "tagfield/motion/planar_pose.h"
-#include "tagfield/reader/radio_model.h"
 
 namespace tagfield {
 namespace {
@@ -61,28 +57,6 @@ std::string absence_of(const TagSpec& tag, Time time) {
     return fmt::format("gone (disappeared at {:g} s)", to_seconds(*tag.disappears));
   }
   return "";
-}
-
-void warn_of_effects_left_out(const Scenario& scenario, Diagnostics& diagnostics) {
-  std::set<std::string> readers;
-  bool interferes = false;
-  bool couples = false;
-  bool captures = false;
-  for (const AntennaSpec& antenna : scenario.antennas) {
-    const RadioModel* const model = physical(antenna.parameters);
-    if (model == nullptr) continue;
-    readers.insert(antenna.parameters.reader);
-    interferes = interferes || is_disturbed(*model);
-    couples = couples || couples_tags(*model);
-    captures = captures || (takes_inventory(*model) && model->gen2->inventory.capture_db);
-  }
-  std::vector<std::string> left_out;
-  if (interferes && readers.size() > 1) left_out.emplace_back("interference of other readers");
-  if (couples && scenario.tags.size() > 1) left_out.emplace_back("coupling of tags");
-  if (captures) left_out.emplace_back("capture of colliding replies (capture_db)");
-  if (left_out.empty()) return;
-  diagnostics.warn(fmt::format("left out of coverage and forecast, unlike in a run: {}",
-                               fmt::join(left_out, ", ")));
 }
 
 std::vector<MovingBody> standing_bodies(const Scenario& scenario, Diagnostics& diagnostics) {

@@ -27,10 +27,6 @@ std::string absence_of(const TagSpec& tag, Time time);
 /// that move or come and go, and robots' bodies.
 std::vector<MovingBody> standing_bodies(const Scenario& scenario, Diagnostics& diagnostics);
 
-/// Warns of effects that the scenario enables and that maps of coverage and the forecast of a run
-/// leave out: interference of other readers, coupling of tags, capture.
-void warn_of_effects_left_out(const Scenario& scenario, Diagnostics& diagnostics);
-
 /// Leaves out the tags that are absent at `time`, and warns of each of the first few.
 void leave_out_absent_tags(Time time, Scenario& scenario, Diagnostics& diagnostics);
 

@@ -92,7 +92,6 @@ struct TagCoverage {
   double probability = 0.0;            ///< Of being read at least once in the run.
   std::vector<ReaderChance> readers;   ///< Those that may read it, the likeliest first.
   std::vector<std::string> meant_for;  ///< Readers of its zone, or the nearest antenna's.
-  bool is_in_zone = false;             ///< Then it is meant for those alone, or for none.
   TagVerdict verdict = TagVerdict::kNever;
 };
 

@@ -121,9 +121,7 @@ TEST(JointSystem, FindsTheAntennasOnOneBody) {
   EXPECT_EQ(make_knots(hall.problem, &*hall.problem.pose_error, 1.0).size, 3);
 }
 
-TEST(JointSystem, CovarianceIsTheInverseOfTheCostsCurvature) {
-  JointSystem system = system_of(two_antennas(2, 2), 3.0);
-  remove_noise(system);
+void expect_inverse_of_curvature(const JointSystem& system) {
   const Eigen::MatrixXd inverse = curvature(system).inverse();
   const JointCovariance covariance = covariance_of(system, 1);
   for (Index i = 0; i < 2; ++i) {
@@ -132,6 +130,12 @@ TEST(JointSystem, CovarianceIsTheInverseOfTheCostsCurvature) {
         covariance.of_tag[static_cast<std::size_t>(i)].topLeftCorner<2, 2>();
     EXPECT_LT((found - expected).norm(), 2e-3 * expected.norm());
   }
+}
+
+TEST(JointSystem, CovarianceIsTheInverseOfTheCostsCurvature) {
+  JointSystem system = system_of(two_antennas(2, 2), 3.0);
+  remove_noise(system);
+  expect_inverse_of_curvature(system);
 }
 
 /// The antenna's position from the body's true pose and from the believed one.
@@ -148,11 +152,11 @@ TEST(JointSystem, AYawErrorTurnsTheWholeLever) {
   }
 }
 
-/// Half the gradient of the cost, where residuals are not 0 and the yaw error is several degrees.
-TEST(JointSystem, FindsTheMinimumUnderALargeYawError) {
-  made::Hall hall = two_antennas(6, 4);
-  hall.problem.pose_error = PoseErrorModel{0.02, 0.08, 3.0};
-  JointSystem system = system_of(hall, 1.0);
+/// Where the lever is turned by several degrees, so are the derivatives by the yaw error.
+TEST(JointSystem, CovarianceIsThatOfTheTurnedLever) {
+  made::Hall hall = two_antennas(6, 2);
+  hall.problem.pose_error = PoseErrorModel{0.02, 0.1, 3.0};
+  JointSystem system = system_of(hall, 3.0);
   made::Rng rng(7);
   for (double& u : system.u) u = made::normal(rng, 1.0);
   for (JointTag& tag : system.tags) {
@@ -163,17 +167,7 @@ TEST(JointSystem, FindsTheMinimumUnderALargeYawError) {
       }
     }
   }
-  minimize(system, 60, 1);
-  const Eigen::VectorXd at = unknowns_of(system);
-  const double least = cost_of(system);
-  for (Index i = 0; i < at.size(); ++i) {
-    for (const double step : {-1e-4, 1e-4}) {
-      Eigen::VectorXd moved = at;
-      moved[i] += step;
-      set_unknowns(system, moved);
-      EXPECT_GT(cost_of(system), least - 1e-9) << i;
-    }
-  }
+  expect_inverse_of_curvature(system);
 }
 
 TEST(JointSystem, BothOrdersOfEliminationGiveTheSame) {

@@ -142,9 +142,9 @@ class RunForecast {
     for (std::size_t tag = 0; tag < coverage.tags.size(); ++tag) {
       TagCoverage& of_tag = coverage.tags[tag];
       of_tag.probability = made.probability[tag];
-      of_tag.is_in_zone = zone_at(scenario_.zones, of_tag.p_WT) < scenario_.zones.size();
-      of_tag.meant_for = meant_for(of_tag);
-      add_readers(made, tag, of_tag);
+      const ZoneSpec* const zone = zone_of(of_tag);
+      of_tag.meant_for = meant_for(of_tag, zone);
+      add_readers(made, tag, zone != nullptr, of_tag);
       of_tag.verdict = verdict_of(of_tag, best_db_[tag]);
     }
   }
@@ -172,21 +172,29 @@ class RunForecast {
     }
   }
 
-  [[nodiscard]] std::vector<std::string> meant_for(const TagCoverage& tag) const {
+  /// Null outside all zones.
+  [[nodiscard]] const ZoneSpec* zone_of(const TagCoverage& tag) const {
     const std::size_t zone = zone_at(scenario_.zones, tag.p_WT);
-    if (zone < scenario_.zones.size()) return scenario_.zones[zone].readers;
+    return zone < scenario_.zones.size() ? &scenario_.zones[zone] : nullptr;
+  }
+
+  [[nodiscard]] std::vector<std::string> meant_for(const TagCoverage& tag,
+                                                   const ZoneSpec* zone) const {
+    if (zone != nullptr) return zone->readers;
     if (!scenario_.zones.empty() || tag.nearest < 0) return {};
     return {groups_of_ports_[static_cast<std::size_t>(tag.nearest)]};
   }
 
-  static void add_readers(const Forecast& made, std::size_t tag, TagCoverage& of_tag) {
+  /// A tag in a zone without readers is meant for none, one outside all zones for any.
+  static void add_readers(const Forecast& made, std::size_t tag, bool is_in_zone,
+                          TagCoverage& of_tag) {
     for (std::size_t group = 0; group < made.groups.size(); ++group) {
       double read = 0.0;
       for (const auto& sample : made.read_by_group) read += sample[group][tag] != 0 ? 1.0 : 0.0;
       if (read == 0.0) continue;
       const std::string& name = made.groups[group];
       const auto& meant = of_tag.meant_for;
-      const bool is_meant = (meant.empty() && !of_tag.is_in_zone) ||
+      const bool is_meant = (meant.empty() && !is_in_zone) ||
                             std::find(meant.begin(), meant.end(), name) != meant.end();
       of_tag.readers.push_back(
           {name, read / static_cast<double>(made.read_by_group.size()), is_meant});

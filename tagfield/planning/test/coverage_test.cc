@@ -219,7 +219,7 @@ TEST(LocalLink, PlacesAQuarterWavelengthApartAverageAStandingWave) {
   EXPECT_NEAR(most, 1.0 + a + 2.0 * std::sqrt(a) / 3.0, 0.06);
 }
 
-TEST(Moment, EffectsThatForecastsLeaveOutAreNamed) {
+TEST(Coverage, EffectsThatItLeavesOutAreNamed) {
   const auto warnings = [](const RadioModel& model, const std::string& other_reader) {
     Scenario scenario = hall_with(physical_antenna("a", {0.0, 0.0, 1.0}, model),
                                   physical_tag("t", {2.0, 0.0, 1.0}));

@@ -80,8 +80,7 @@ void warn_of_sharing(const Scenario& scenario, const AntennaParameters& antenna,
 /// Null if the antenna does not take inventory by Gen2.
 const InventorySettings* inventory_of(const AntennaSpec& antenna) {
   const RadioModel* const model = physical(antenna.parameters);
-  const bool takes = model != nullptr && model->gen2 && model->effects.inventory;
-  return takes ? &model->gen2->inventory : nullptr;
+  return model != nullptr && takes_inventory(*model) ? &model->gen2->inventory : nullptr;
 }
 
 /// Warns about an antenna that asks for flags that nothing sets: all flags begin with A.

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
 
 #include "tagfield/base/units.h"
+#include "tagfield/reader/channel_plan.h"
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/simulator/test/recorded.h"
 #include "tagfield/stream/recording.h"
 
@@ -53,6 +56,28 @@ TEST(Simulation, StampsReadsAtTheAntennasRateAndNotAtItsOwnSteps) {
   for (std::size_t k = 0; k < recording.reads.size(); ++k) {
     EXPECT_NEAR(to_seconds(recording.reads[k].stamp), static_cast<double>(k) / 15.0, 1e-9);
   }
+}
+
+/// What it reads does not depend on how often its antenna is updated, nor end with the last update.
+TEST(Simulation, AnInventoryIsReadToTheEndOfTheRun) {
+  const auto reads_at = [](double rate_hz) {
+    Scenario scenario = fixed_antenna_and_tag();
+    scenario.duration_s = 1.0;
+    RadioModel model;
+    model.gen2.emplace();
+    model.gen2->inventory.target = Target::kAlternate;  // Reads the tag again and again.
+    model.plan = fixed_plan(865.7e6);
+    scenario.antennas[0].parameters.model = std::make_shared<const RadioModel>(model);
+    scenario.antennas[0].parameters.rate_hz = rate_hz;
+    return recorded_run(scenario).reads;
+  };
+  const std::vector<TagRead> seldom = reads_at(1.0);
+  const std::vector<TagRead> often = reads_at(10.0);
+  ASSERT_GT(seldom.size(), 20U);
+  EXPECT_GT(to_seconds(seldom.back().stamp), 0.95);
+  EXPECT_LT(to_seconds(seldom.back().stamp), 1.0);
+  ASSERT_EQ(often.size(), seldom.size());
+  for (std::size_t i = 0; i < seldom.size(); ++i) EXPECT_EQ(often[i].stamp, seldom[i].stamp);
 }
 
 TEST(Simulation, StepLengthDoesNotChangeWhatIsRead) {
