@@ -83,6 +83,7 @@ LocalizationOptions options_of(const LocalizeArguments& arguments,
   take_known(arguments, reads, options.known);
   options.known.pose_error = pose_error_of(arguments, scenario_in(loaded), poses);
   options.known.map_error = map_error_of(arguments, poses);
+  if (poses != "given") options.known.drift = {};
   options.known.world_sigma_m = world_sigma_of(arguments, options.method, options.known);
   return options;
 }
@@ -299,7 +300,7 @@ std::set<std::string> references_of(const LocalizeArguments& arguments,
                                     const std::optional<ScenarioWithWorld>& loaded) {
   std::map<std::string, Eigen::Vector3d> places;
   if (!arguments.references_file.empty()) {
-    places = read_tag_positions_csv(arguments.references_file);
+    places = arguments.tables.references;
   } else if (loaded) {
     places = localization_options(loaded->scenario, 1).known.reference_tags;
   }
@@ -377,7 +378,8 @@ LocalizationResult located_with_progress(const LoadedRecording& recording,
 
 int localize(const LocalizeArguments& asked) {
   refuse_unknown_method(asked.method);
-  const LocalizeArguments arguments = with_what_run_knew(asked);
+  LocalizeArguments arguments = with_what_run_knew(asked);
+  arguments.tables = known_tables(arguments);
   Diagnostics diagnostics;
   if (!arguments.old_height_side.empty()) {
     diagnostics.warn("--height " + arguments.old_height_side + " is --vertical-side " +
@@ -389,7 +391,7 @@ int localize(const LocalizeArguments& asked) {
       recording_of(arguments, out, references_of(arguments, loaded), diagnostics);
   LocalizationOptions options =
       options_of(arguments, loaded, recording.overview, recording.poses.name);
-  warn_of_unread_tags(asked, recording.overview, diagnostics);
+  warn_of_unread_tags(asked, arguments.tables, recording.overview, diagnostics);
   warn_of_unused_options(arguments, find_method(options.methods, options.method),
                          recording.poses.name, diagnostics);
   warn_of_what_is_missing(arguments, recording, diagnostics);

@@ -4,6 +4,8 @@
 /// bag.
 #pragma once
 
+#include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +16,12 @@
 #include "tagfield/sdf/load_world.h"
 
 namespace tagfield {
+
+/// Contents of the files of --tag-heights and --reference.
+struct KnownTables {
+  std::map<std::string, double> heights;              ///< [m]
+  std::map<std::string, Eigen::Vector3d> references;  ///< [m, world]
+};
 
 struct LocalizeArguments {
   std::string recording;  ///< Reads as CSV, or a bag.
@@ -44,6 +52,7 @@ struct LocalizeArguments {
   int threads = default_threads();
   bool as_json = false;
   WorldOptions world{};  ///< Of the scenario.
+  KnownTables tables{};  ///< Read from its files, once.
 };
 
 /// Values of `--poses` for a bag.

@@ -23,9 +23,7 @@ namespace {
 TagHeights heights_of(const LocalizeArguments& arguments) {
   TagHeights heights;
   heights.of_all = arguments.tag_height_m;
-  if (!arguments.heights_file.empty()) {
-    heights.of_tag = read_tag_heights_csv(arguments.heights_file);
-  }
+  heights.of_tag = arguments.tables.heights;
   const std::string& side =
       arguments.height_side.empty() ? arguments.old_height_side : arguments.height_side;
   if (side == "above") heights.estimated = HeightSide::kAbove;
@@ -101,15 +99,23 @@ void warn_of_unread(const std::string& option, const std::string& file,
 
 }  // namespace
 
-void warn_of_unread_tags(const LocalizeArguments& arguments, const ReadOverview& reads,
-                         Diagnostics& diagnostics) {
+KnownTables known_tables(const LocalizeArguments& arguments) {
+  KnownTables tables;
+  if (!arguments.heights_file.empty())
+    tables.heights = read_tag_heights_csv(arguments.heights_file);
   if (!arguments.references_file.empty()) {
-    warn_of_unread("--reference", arguments.references_file,
-                   read_tag_positions_csv(arguments.references_file), reads, diagnostics);
+    tables.references = read_tag_positions_csv(arguments.references_file);
   }
-  if (!arguments.heights_file.empty()) {
-    warn_of_unread("--tag-heights", arguments.heights_file,
-                   read_tag_heights_csv(arguments.heights_file), reads, diagnostics);
+  return tables;
+}
+
+void warn_of_unread_tags(const LocalizeArguments& asked, const KnownTables& tables,
+                         const ReadOverview& reads, Diagnostics& diagnostics) {
+  if (!asked.references_file.empty()) {
+    warn_of_unread("--reference", asked.references_file, tables.references, reads, diagnostics);
+  }
+  if (!asked.heights_file.empty()) {
+    warn_of_unread("--tag-heights", asked.heights_file, tables.heights, reads, diagnostics);
   }
 }
 
@@ -200,7 +206,7 @@ void take_known(const LocalizeArguments& arguments, const ReadOverview& reads,
   }
   if (!arguments.side.empty() || !arguments.box.empty()) known.area = area_of(arguments);
   if (!arguments.references_file.empty()) {
-    known.reference_tags = read_tag_positions_csv(arguments.references_file);
+    known.reference_tags = arguments.tables.references;
   }
   if (!arguments.offsets.empty()) known.offsets = offsets_of(arguments.offsets, reads);
   if (arguments.circular.empty()) return;

@@ -18,6 +18,9 @@ namespace tagfield {
 /// Adds the options for heights, reference tags, offsets and the error of the poses.
 void add_known_options(CLI::App& command, LocalizeArguments& arguments);
 
+/// Reads the files of --tag-heights and --reference, once, as they may be pipes.
+KnownTables known_tables(const LocalizeArguments& arguments);
+
 /// Overrides in `known` the heights, reference tags, offsets and polarization that the command line
 /// states. Throws Error on an offset of an antenna without reads.
 void take_known(const LocalizeArguments& arguments, const ReadOverview& reads,
@@ -25,8 +28,8 @@ void take_known(const LocalizeArguments& arguments, const ReadOverview& reads,
 
 /// Warns of tags in the files of --reference and --tag-heights that were never read, which are
 /// usually typos: once for each file.
-void warn_of_unread_tags(const LocalizeArguments& arguments, const ReadOverview& reads,
-                         Diagnostics& diagnostics);
+void warn_of_unread_tags(const LocalizeArguments& asked, const KnownTables& tables,
+                         const ReadOverview& reads, Diagnostics& diagnostics);
 
 /// Known error of poses of that name ("true", "odometry", "given", …): those of a bag are the
 /// robot's own, whatever the scenario simulates.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tagfield/experiment/known_world.h"
+#include "tagfield/experiment/odometry_drift.h"
 #include "tagfield/field/antenna_facts.h"
 
 namespace tagfield {
@@ -85,6 +86,7 @@ KnownBeforehand known_beforehand(const Scenario& scenario) {
   known.reference_tags = reference_tags_of(scenario);
   known.offsets = offsets_of(scenario);
   known.pose_error = pose_error_of(scenario);
+  known.drift = odometry_drift(scenario);
   known.pi_ambiguity = scenario.localization.pi_ambiguity;
   known.area = scenario.localization.area;
   known.limits = scenario.localization.limits;

@@ -12,8 +12,8 @@ namespace tagfield {
 /// was surveyed. A simulated run has no such uncertainty.
 inline constexpr double kMeasuredWorldSigma_m = 0.01;
 
-/// Heights, reference tags, offsets and the model of the pose error, as far as the scenario's
-/// `localization` states that they are known.
+/// Heights, reference tags, offsets, the drift of odometry and the model of the pose error, as far
+/// as the scenario's `localization` states that they are known.
 KnownBeforehand known_beforehand(const Scenario& scenario);
 
 }  // namespace tagfield

@@ -81,6 +81,10 @@ std::string why_not_locatable(const SamplesOfTag& samples) {
   return "";
 }
 
+bool is_pose_error_unknown(const LocalizationProblem& problem) {
+  return !problem.pose_error && problem.drift.empty();
+}
+
 bool has_exact_poses(const LocalizationProblem& problem) {
   const auto& error = problem.pose_error;
   return error && error->sigma_m == 0.0 && error->yaw_sigma_rad == 0.0;

@@ -42,6 +42,9 @@ std::string why_not_locatable(const SamplesOfTag& samples);
 /// Whether poses are stated to be exact, so that no method corrects them.
 bool has_exact_poses(const LocalizationProblem& problem);
 
+/// Whether nothing is known of the poses' error, neither a model nor how dead reckoning drifts.
+bool is_pose_error_unknown(const LocalizationProblem& problem);
+
 /// A new estimate with only the tag and the number of reads filled in.
 TagEstimate begun(const std::string& tag, const SamplesOfTag& samples);
 

@@ -12,6 +12,7 @@
 #include "tagfield/localization/circular_polarization.h"
 #include "tagfield/localization/common_latency.h"
 #include "tagfield/localization/confirmation.h"
+#include "tagfield/localization/drift.h"
 #include "tagfield/localization/fixed/fixed.h"
 #include "tagfield/localization/height_side.h"
 #include "tagfield/localization/holograms/dah.h"
@@ -125,6 +126,7 @@ LocalizationResult held_against(const LocalizationProblem& problem, Localization
   if (problem.has_phases) refuse_interleaved_tags(problem, result);
   if (problem.has_phases) refuse_departures(problem, threads, result, diagnostics);
   add_map_error(problem, result);
+  add_drift(problem, result);
   keep_on_height_side(problem, result);
   keep_within_area(problem, result.estimates);
   return result;

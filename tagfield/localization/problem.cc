@@ -117,6 +117,17 @@ std::optional<MapError> map_error_of(const KnownBeforehand& known,
   return error;
 }
 
+std::map<std::string, std::vector<Drift>> drift_of(
+    const KnownBeforehand& known, const std::map<std::string, BelievedTrack>& tracks) {
+  std::map<std::string, std::vector<Drift>> by_antenna;
+  if (!known.drift || known.pose_error) return by_antenna;
+  for (const auto& [antenna, track] : tracks) {
+    std::vector<Drift> drift = known.drift(antenna, track.X_WA);
+    if (!drift.empty()) by_antenna[antenna] = std::move(drift);
+  }
+  return by_antenna;
+}
+
 std::optional<double> known_height(const LocalizationProblem& problem, const std::string& tag) {
   const auto known = problem.heights.of_tag.find(tag);
   if (known != problem.heights.of_tag.end()) return known->second;
@@ -187,6 +198,7 @@ LocalizationProblem make_problem(const EachRead& each_read, const std::vector<An
   problem.reference_tags = known.reference_tags;
   problem.pose_error = known.pose_error;
   problem.map_error = map_error_of(known, problem.tracks);
+  problem.drift = drift_of(known, problem.tracks);
   problem.limits = known.limits;
   problem.trace = known.trace;
   problem.world_sigma_m = known.world_sigma_m;

@@ -142,6 +142,21 @@ struct MapError {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of x, y, yaw [m², m·rad, rad²].
 };
 
+/// Error by dead reckoning at one time: a shift, and a rotation about the body's believed position.
+/// Covariances are of x, y, yaw [m², m·rad, rad²], in the world's axes.
+struct Drift {
+  Time stamp;
+  Eigen::Vector2d origin_W{0.0, 0.0};                     ///< Believed position of the body [m].
+  Eigen::Matrix3d since_start = Eigen::Matrix3d::Zero();  ///< As accumulated.
+  Eigen::Matrix3d since_last =
+      Eigen::Matrix3d::Zero();  ///< Gained since the previous one, independent.
+};
+
+/// The drift at the poses of an antenna's believed trajectory, in their order; empty for an antenna
+/// whose poses don't drift.
+using DriftOf =
+    std::function<std::vector<Drift>(const std::string& antenna, const Trajectory& X_WA)>;
+
 /// Believed trajectory of an antenna.
 struct BelievedTrack {
   Trajectory X_WA;  ///< Sorted by time.
@@ -213,9 +228,11 @@ struct LocalizationProblem {
   std::set<std::string> offset_known;        ///< Antennas whose offset is known on all channels.
   std::optional<PoseErrorModel> pose_error;  ///< nullopt if unknown.
   std::optional<MapError> map_error;         ///< nullopt if unknown; with an origin.
-  bool has_phases = true;                    ///< False if they are identical: the reads have none.
-  bool pi_ambiguity = false;                 ///< Phases and carriers were doubled (pi_ambiguity.h).
-  TagArea area;                              ///< Where tags can be.
+  std::map<std::string, std::vector<Drift>>
+      drift;                  ///< By antenna, sorted by time; of those that drift.
+  bool has_phases = true;     ///< False if they are identical: the reads have none.
+  bool pi_ambiguity = false;  ///< Phases and carriers were doubled (pi_ambiguity.h).
+  TagArea area;               ///< Where tags can be.
   EstimateLimits limits;
   TraceReplies trace;          ///< Traces paths through the world if that is known, otherwise null.
   double world_sigma_m = 0.0;  ///< Standard deviation of its surfaces' positions along each axis.
@@ -232,6 +249,9 @@ struct KnownBeforehand {
   std::vector<KnownOffset> offsets;
   std::optional<PoseErrorModel> pose_error;
   std::optional<MapError> map_error;
+  /// Of poses by dead reckoning, null if there are none. Without effect beside `pose_error`, which
+  /// then includes it.
+  DriftOf drift{};
   double max_pose_gap_s = 0.5;  ///< Reads between poses further apart than this are left out.
   /// Whether phases have a π ambiguity; if not given, it is detected from the reads.
   std::optional<bool> pi_ambiguity;

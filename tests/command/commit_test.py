@@ -45,9 +45,12 @@ def commands(context):
     suite = context.write("suite.yaml", f"scenario: {context.shipped('z_axis')}\nseeds: 2\n"
                                         "methods: [hyperbola]\nconditions: [{name: plain}]\n")
     reads = [run / "reads.csv", "--poses", run / "antenna_poses.csv"]
+    header, *rows = reads[0].read_text(encoding="utf-8").splitlines(keepends=True)
+    of_one_tag = context.write("of_one_tag.csv",
+                               header + "".join(row for row in rows if ",tag10," in row))
     return {"run": ["run", context.shipped("two_antennas")],
             "localize": ["localize", *reads],
-            "track": ["track", *reads, "--lane", 0, 0, 0],
+            "track": ["track", of_one_tag, *reads[1:], "--lane", 0, 0, 0],
             "bench": ["bench", suite],
             "coverage": ["coverage", context.shipped("two_antennas"), "--height", 1, "--step", 0.5]}
 

@@ -119,7 +119,7 @@ JointState solved_state(const LocalizationProblem& problem, const std::set<std::
   JointState state = begin_jointly(problem, without, threads);
   if (state.system.tags.empty()) return state;
   fit_unwrapped_jointly(state, threads);
-  if (!problem.pose_error) learn_pose_error(state, threads);
+  if (is_pose_error_unknown(problem)) learn_pose_error(state, threads);
   find_better_positions(state, threads);
   fit_wrapped_jointly(state, threads);
   find_alternatives(state, threads);
@@ -194,7 +194,7 @@ LocalizationResult locate_jointly(const LocalizationProblem& problem, int thread
                                    : reference_estimate(tag, known->second));
   }
   result.corrected_poses = std::move(solution.corrected_poses);
-  if (!problem.pose_error && solution.tags > 0) {
+  if (is_pose_error_unknown(problem) && solution.tags > 0) {
     refuse_other_poses(problem, solution.lambda_m, result, diagnostics);
   }
   return result;

@@ -173,6 +173,8 @@ PoseKnots make_knots(const LocalizationProblem& problem, const PoseErrorModel* m
   if (model != nullptr) knots.time_constant_s = model->time_constant_s;
   if (model != nullptr && model->sigma_m <= 0.0 && model->yaw_sigma_rad <= 0.0) return knots;
   for (const Body& body : bodies_of(problem)) {
+    const bool is_exact = !problem.drift.empty() && problem.drift.count(body.reference) == 0;
+    if (is_exact) continue;
     if (body.antennas.size() > 1) knots.size = 3;
     add_chain(problem, body, model, spacing_s, knots);
   }

@@ -25,6 +25,15 @@ struct Body {
 /// as exact.
 std::vector<Body> bodies_of(const LocalizationProblem& problem);
 
+/// How the error of dead reckoning goes on from the previous knot: it stays, its yaw turns what the
+/// reference antenna drives (displacement_of()), and something is added.
+struct KnotStep {
+  bool is_first = false;             ///< Of a body: the error was 0 before.
+  Eigen::Vector2d driven{0.0, 0.0};  ///< Since the previous knot, as believed [m].
+  /// Inverse covariance of what is added to x, y [m], yaw [rad], in the axes of the believed poses.
+  Eigen::Matrix3d precision = Eigen::Matrix3d::Identity();
+};
+
 /// Knots of all bodies, body by body. The error at knot k is `scale[k]` u_k, where u is a process
 /// of variance 1 with the correlation e^(−|Δt|/τ) for any interval Δt to the previous knot.
 struct PoseKnots {
@@ -46,6 +55,9 @@ struct PoseKnots {
   std::vector<Chain> chains;
   std::map<std::string, std::size_t> chain_of;  ///< By antenna.
   std::vector<Eigen::Matrix3d> scale;           ///< Per knot; of x, y [m] and yaw [rad].
+  /// Per knot, of poses by dead reckoning (drift_steps.h), with 3 unknowns per knot; otherwise
+  /// empty, and the process is the one above.
+  std::vector<KnotStep> steps;
 
   [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(scale.size()); }
   /// Correlation of each knot with the previous one; 0 for a body's first, and an extra 0 at the
@@ -58,7 +70,7 @@ struct PoseKnots {
 /// ends are correlated anyway. So a read adds at most as many knots as fit into a time constant,
 /// however far reads are apart. If `model` is null, the covariances of the tracks are those of the
 /// process; otherwise `model` gives its variances. Without bodies, or with σ = 0, there are no
-/// knots.
+/// knots, and none of bodies without drift if others drift: their poses are exact.
 PoseKnots make_knots(const LocalizationProblem& problem, const PoseErrorModel* model,
                      double spacing_s);
 

@@ -103,10 +103,61 @@ TagPart<D> part_of(const JointSystem& system, const JointTag& tag) {
   return part;
 }
 
+/// What dead reckoning adds at a knot, in the axes of the believed poses, with its derivatives by
+/// the errors there and at the previous knot. That of the axes is left out, as what is added is
+/// small.
+struct Added {
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d by_this = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d by_last = Eigen::Matrix3d::Zero();
+};
+
+Added added_at(const JointSystem& system, Index k) {
+  const auto at = static_cast<std::size_t>(k);
+  const KnotStep& step = system.knots.steps[at];
+  Added added;
+  added.value = system.knots.scale[at] * system.u.segment<3>(3 * k);
+  if (step.is_first) return added;
+  const Eigen::Vector3d last = system.knots.scale[at - 1] * system.u.segment<3>(3 * (k - 1));
+  added.value.head<2>() -= displacement_of(last, step.driven);
+  added.value.z() -= last.z();
+  const Eigen::Vector2d driven = true_lever(step.driven, last.z());
+  added.by_last = -Eigen::Matrix3d::Identity();
+  added.by_last(0, 2) = driven.y();
+  added.by_last(1, 2) = -driven.x();
+  Eigen::Matrix3d to_believed = Eigen::Matrix3d::Identity();
+  to_believed.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(last.z()).toRotationMatrix();
+  added.value = to_believed * added.value;
+  added.by_this = to_believed;
+  added.by_last = to_believed * added.by_last;
+  return added;
+}
+
+/// Prior of dead reckoning: the sum over the steps of what is added, squared and weighted.
+void add_steps(const JointSystem& system, ChainPart<3>& chain) {
+  for (Index k = 0; k < system.knots.count(); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const KnotStep& step = system.knots.steps[at];
+    const Added added = added_at(system, k);
+    const Eigen::Matrix3d J = added.by_this * system.knots.scale[at];
+    chain.diagonal.middleCols<3>(3 * k) += J.transpose() * step.precision * J;
+    chain.gradient.segment<3>(3 * k) -= J.transpose() * step.precision * added.value;
+    if (step.is_first) continue;
+    const Eigen::Matrix3d last = added.by_last * system.knots.scale[at - 1];
+    const Eigen::Matrix3d weighted = last.transpose() * step.precision;
+    chain.diagonal.middleCols<3>(3 * (k - 1)) += weighted * last;
+    chain.next.middleCols<3>(3 * (k - 1)) += weighted * J;
+    chain.gradient.segment<3>(3 * (k - 1)) -= weighted * added.value;
+  }
+}
+
 /// Prior of the pose error: uᵀ Λ u with the precision Λ of the process.
 template <int D>
 void add_prior(const JointSystem& system, ChainPart<D>& chain) {
   constexpr int size = D;
+  if constexpr (D == 3) {
+    if (!system.knots.steps.empty()) return add_steps(system, chain);
+  }
   const Eigen::ArrayXd rho = system.knots.correlations();
   const Eigen::ArrayXd fresh = 1.0 / (1.0 - rho * rho);
   for (Index k = 0; k < system.knots.count(); ++k) {
@@ -169,8 +220,15 @@ ReadNow read_now(const JointSystem& system, const JointTag& tag, std::size_t spa
 
 double prior_cost(const JointSystem& system) {
   const int size = system.knots.size;
-  const Eigen::ArrayXd rho = system.knots.correlations();
   double cost = 0.0;
+  if (!system.knots.steps.empty()) {
+    for (Index k = 0; k < system.knots.count(); ++k) {
+      const Eigen::Vector3d added = added_at(system, k).value;
+      cost += added.dot(system.knots.steps[static_cast<std::size_t>(k)].precision * added);
+    }
+    return cost;
+  }
+  const Eigen::ArrayXd rho = system.knots.correlations();
   for (Index k = 0; k < system.knots.count(); ++k) {
     const auto u = system.u.segment(k * size, size);
     if (rho[k] <= 0.0) {

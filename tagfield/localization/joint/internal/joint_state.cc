@@ -11,6 +11,7 @@
 #include "tagfield/fit/envelope_matrix.h"
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
+#include "tagfield/localization/joint/drift_steps.h"
 #include "tagfield/localization/joint/internal/joint_equations.h"
 #include "tagfield/localization/joint/internal/periods.h"
 #include "tagfield/localization/judgement.h"
@@ -98,6 +99,7 @@ PoseKnots knots_of(const LocalizationProblem& problem, const PoseErrorModel& mod
   const bool uses_covariances = !problem.pose_error && has_stated_covariances(problem);
   PoseKnots knots = make_knots(problem, uses_covariances ? nullptr : &model, spacing_s);
   knots.time_constant_s = model.time_constant_s;
+  if (!problem.drift.empty()) take_drift(problem, knots);
   return knots;
 }
 

@@ -10,6 +10,7 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/joint/internal/joint_equations.h"
+#include "tagfield/localization/judgement.h"
 
 namespace tagfield {
 namespace {
@@ -328,7 +329,7 @@ void fit_through_world(WorldFit& fit, const MultipathOptions& options, int threa
   for (int round = 0; round < options.rounds; ++round) {
     tell(*state.problem, "the known world", static_cast<double>(round) / options.rounds);
     last = fit_once(fit, options, round > 2, threads);
-    if (round == 1 && !state.problem->pose_error) learn_pose_error(state, threads);
+    if (round == 1 && is_pose_error_unknown(*state.problem)) learn_pose_error(state, threads);
     if (round == 2) {
       // No tag's reads fit this world: it is a different one, or the reads are not what they seem.
       if (!any_fits(fit_weights(state, threads))) break;
