@@ -12,6 +12,9 @@ constexpr std::size_t kMaxEpcWords = 31;
 /// Words of the EPC bank before the EPC: CRC and PC.
 constexpr std::size_t kEpcBegins = 2;
 
+/// The length in a PC word.
+std::size_t epc_words(std::uint16_t pc) { return pc >> 11U; }
+
 std::size_t number(Bank bank) { return static_cast<std::size_t>(bank); }
 std::size_t number(LockField field) { return static_cast<std::size_t>(field); }
 
@@ -41,7 +44,7 @@ MemoryBanks::MemoryBanks(const Words& epc, Words tid, std::size_t user_words) {
 
 Words MemoryBanks::epc() const {
   const Words& bank = banks_[number(Bank::kEpc)];
-  const std::size_t stated = pc() >> 11U;
+  const std::size_t stated = epc_words(pc());
   const std::size_t there = bank.size() - kEpcBegins;
   return {bank.begin() + kEpcBegins,
           bank.begin() + kEpcBegins + static_cast<std::ptrdiff_t>(stated < there ? stated : there)};
@@ -108,6 +111,11 @@ MemoryResult MemoryBanks::write(std::uint32_t password, Bank bank, std::size_t p
     // The tag computes its CRC itself, and its TID is fixed.
     const bool is_own = bank == Bank::kTid || (bank == Bank::kEpc && i == 0);
     if (is_forbidden || is_own) return MemoryResult::kLocked;
+  }
+  // A tag refuses a length that its EPC memory does not hold.
+  const bool sets_pc = bank == Bank::kEpc && pointer <= 1 && pointer + words.size() > 1;
+  if (sets_pc && epc_words(words[1 - pointer]) > stored.size() - kEpcBegins) {
+    return MemoryResult::kOverrun;
   }
   for (std::size_t i = 0; i < words.size(); ++i) stored[pointer + i] = words[i];
   return MemoryResult::kSuccess;

@@ -48,6 +48,18 @@ TEST(MemoryBanks, WrittenEpcIsTheNewOne) {
   EXPECT_EQ(tag.epc(), (Words{0xabcd, 0x2222}));
 }
 
+/// EPC memory is at least 96 bits, so six words can be given, but no more.
+TEST(MemoryBanks, ALengthThatDoesNotFitIsRefused) {
+  MemoryBanks tag({0x1111});
+  EXPECT_EQ(tag.write(0, Bank::kEpc, 1, {0x4800}), Result::kOverrun);
+  EXPECT_EQ(tag.write(0, Bank::kEpc, 1, {0x3800, 0xabcd}), Result::kOverrun);
+  EXPECT_EQ(tag.pc(), 0x0800);
+  EXPECT_EQ(tag.epc(), Words{0x1111});
+  EXPECT_EQ(tag.write(0, Bank::kEpc, 2, {0xf800}), Result::kSuccess);  // not the PC
+  EXPECT_EQ(tag.write(0, Bank::kEpc, 1, {0x3000, 0xabcd}), Result::kSuccess);
+  EXPECT_EQ(tag.epc(), (Words{0xabcd, 0, 0, 0, 0, 0}));
+}
+
 TEST(MemoryBanks, NothingIsWrittenBeyondTheEnd) {
   MemoryBanks tag({0x1111}, {0xE200}, 4);
   EXPECT_EQ(tag.write(0, Bank::kUser, 2, {1, 2}), Result::kSuccess);
