@@ -46,6 +46,9 @@ class RfidField::Impl {
 
   void step(const FieldStep& step);
   void finish() { delivery_.tell(Time::max()); }
+  [[nodiscard]] std::vector<TagRead> held_reads(const std::string& reader) const {
+    return delivery_.kept_reads(reader);
+  }
   std::vector<std::string> take_warnings();
   [[nodiscard]] std::int64_t reads() const { return delivery_.reads(); }
 
@@ -257,6 +260,10 @@ RfidField& RfidField::operator=(RfidField&&) noexcept = default;
 void RfidField::step(const FieldStep& step) { impl_->step(step); }
 
 void RfidField::finish() { impl_->finish(); }
+
+std::vector<TagRead> RfidField::held_reads(const std::string& reader) const {
+  return impl_->held_reads(reader);
+}
 
 std::vector<std::string> RfidField::take_warnings() { return impl_->take_warnings(); }
 

@@ -99,6 +99,9 @@ class RfidField {
   void step(const FieldStep& step);
   /// Delivers reads held back because an earlier one could still have followed.
   void finish();
+  /// The reader's reads that are held back now, in chronological order. Listeners still receive
+  /// them.
+  [[nodiscard]] std::vector<TagRead> held_reads(const std::string& reader) const;
 
   /// Warnings since the last call, without duplicates: guessed materials, a world that can't be
   /// prepared for wave propagation, in which case the previous one is kept.

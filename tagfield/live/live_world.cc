@@ -441,6 +441,20 @@ void LiveWorld::reset_duty(const std::string& reader) {
   for (LiveAntenna* antenna : impl_->in_turn(reader)) impl_->apply_duty(*antenna);
 }
 
+void LiveWorld::update_reader(const std::string& reader) {
+  std::vector<std::string> names;
+  for (const LiveAntenna& antenna : impl_->antennas) {
+    const AntennaParameters& parameters = antenna.spec.parameters;
+    const bool is_on = parameters.reader == reader && antenna.is_on;
+    if (is_on && takes_inventory(parameters)) names.push_back(parameters.name);
+  }
+  impl_->simulation.update_antennas(names);
+}
+
+std::vector<TagRead> LiveWorld::held_reads(const std::string& reader) const {
+  return impl_->simulation.held_reads(reader);
+}
+
 void LiveWorld::add_obstacle(const ObstacleSpec& obstacle) {
   std::vector<ObstacleSpec>& all = impl_->scenario.obstacles;
   if (std::any_of(all.begin(), all.end(),

@@ -125,6 +125,12 @@ class LiveWorld {
   std::vector<std::string> set_duty(const std::string& reader, const ReaderDuty& duty);
   /// Resets the reader to what the scenario says.
   void reset_duty(const std::string& reader);
+  /// Updates the reader's antennas that take an inventory, in addition to the updates at their
+  /// rates: their reads until now are delivered, or held back.
+  void update_reader(const std::string& reader);
+  /// The reader's reads that the outlets have yet to receive because reads of other readers may
+  /// come before them; in chronological order.
+  [[nodiscard]] std::vector<TagRead> held_reads(const std::string& reader) const;
 
   /// Adds an obstruction, such as a pallet: an absorbing box or cylinder.
   void add_obstacle(const ObstacleSpec& obstacle);

@@ -137,12 +137,18 @@ void Simulation::remove_antenna(const std::string& name) {
   driver_.remove_antenna(name);
 }
 
-void Simulation::update_antenna(const std::string& name) {
-  const auto found = antennas_.find(name);
-  if (found == antennas_.end()) throw Error(fmt::format("there is no antenna called '{}'", name));
-  AntennaDue due;
-  due.antenna = driver_.antenna(name);
-  update({due}, last_instant());
+void Simulation::update_antenna(const std::string& name) { update_antennas({name}); }
+
+void Simulation::update_antennas(const std::vector<std::string>& names) {
+  std::vector<AntennaDue> due;
+  for (const std::string& name : names) {
+    if (antennas_.count(name) == 0) {
+      throw Error(fmt::format("there is no antenna called '{}'", name));
+    }
+    due.emplace_back();
+    due.back().antenna = driver_.antenna(name);
+  }
+  if (!due.empty()) update(std::move(due), last_instant());
 }
 
 void Simulation::add_obstacle(const ObstacleSpec& obstacle) {

@@ -70,6 +70,10 @@ class Simulation {
   /// Passes on the reads that are held back to keep them in chronological order; the last step does
   /// so by itself.
   void finish() { field_.finish(); }
+  /// The reader's reads that are held back now, in chronological order.
+  [[nodiscard]] std::vector<TagRead> held_reads(const std::string& reader) const {
+    return field_.held_reads(reader);
+  }
 
   /// Time at which the next step begins.
   [[nodiscard]] Time now() const { return now_; }
@@ -104,6 +108,8 @@ class Simulation {
   /// Updates the antenna now, in addition to the updates at its rate: what its inventory has read
   /// until now is passed on, or the inventory begins. Throws Error if there is no such antenna.
   void update_antenna(const std::string& name);
+  /// Same for several antennas at once, each of which sees the others where they are now.
+  void update_antennas(const std::vector<std::string>& names);
   /// Adds an obstacle to waves from now on, if it has a body.
   void add_obstacle(const ObstacleSpec& obstacle);
   /// Does nothing if there is no such obstacle.

@@ -166,6 +166,15 @@ void ReadDelivery::keep(Event& event, std::vector<Event>& kept) {
   }
 }
 
+std::vector<TagRead> ReadDelivery::kept_reads(const std::string& reader) const {
+  std::vector<TagRead> all;
+  for (const Event& event : events_) {
+    const auto* const kept = std::get_if<Read>(&event.what);
+    if (kept != nullptr && kept->read.reader == reader) all.push_back(kept->read);
+  }
+  return all;
+}
+
 void ReadDelivery::tell(Time until) {
   const auto earlier = [](const Event& a, const Event& b) { return a.stamp < b.stamp; };
   // Stable, so that events with equal stamps are delivered in the order in which they were added.

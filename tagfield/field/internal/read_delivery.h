@@ -52,6 +52,9 @@ class ReadDelivery {
   /// afterwards.
   void tell(Time until);
 
+  /// The reader's reads that the last tell() kept, in chronological order.
+  [[nodiscard]] std::vector<TagRead> kept_reads(const std::string& reader) const;
+
   /// Number of reads added; those that are generated on delivery count from then on.
   [[nodiscard]] std::int64_t reads() const { return reads_; }
 

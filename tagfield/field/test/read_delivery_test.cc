@@ -82,6 +82,23 @@ TEST(ReadDelivery, KeepsBackReadsThatAreLaterAndPutsThemInOrder) {
                                 "distance late", "read late", "pose b", "truth b", "update b"}));
 }
 
+TEST(ReadDelivery, ShowsAReadersKeptReadsInOrder) {
+  DeliveryFixture fixture;
+  for (const std::int64_t nanos : {30, 20, 10}) {
+    TagRead read = read_at(nanos, std::to_string(nanos));
+    read.reader = nanos == 20 ? "other" : "one";
+    fixture.delivery.add(read, 1.0);
+  }
+  fixture.delivery.tell(at_nanos(5));
+  const std::vector<TagRead> kept = fixture.delivery.kept_reads("one");
+  ASSERT_EQ(kept.size(), 2U);
+  EXPECT_EQ(kept[0].tag, "10");
+  EXPECT_EQ(kept[1].tag, "30");
+  fixture.delivery.tell(at_nanos(10));
+  EXPECT_EQ(fixture.delivery.kept_reads("one").size(), 1U);
+  EXPECT_EQ(fixture.heard->reads.size(), 1U);
+}
+
 TEST(ReadDelivery, TellsNothingTwiceThoughAListenerFails) {
   struct Failing final : ReadListener {
     int calls = 0;
