@@ -58,11 +58,11 @@ void write_llrp(ByteWriter& writer) {
     writer.u8(0x48);  // reports buffer fill levels, and holds reports on request
     writer.u8(7);
     writer.u16(0);
-    writer.u32(32);
-    writer.u32(64);
-    writer.u32(1);
-    writer.u32(1024);
-    writer.u32(16);
+    writer.u32(kMaxRoSpecs);
+    writer.u32(kMaxAiSpecs);
+    writer.u32(1);  // InventoryParameterSpec per AISpec
+    writer.u32(kMaxAccessSpecs);
+    writer.u32(kMaxOpSpecs);
   });
 }
 
@@ -135,7 +135,7 @@ void write_regulation(const Ports& ports, ByteWriter& writer) {
 void write_gen2(ByteWriter& writer) {
   writer.parameter(327, [&] {
     writer.u8(0xc0);  // erases and writes blocks
-    writer.u16(8);
+    writer.u16(kMaxFilters);
   });
 }
 

@@ -15,9 +15,10 @@ namespace {
 constexpr std::size_t kMaxPending = 10'000;
 /// TagReportData per message.
 constexpr std::size_t kMaxReportBytes = 32'000;
-constexpr std::size_t kMaxRoSpecs = 32;
-constexpr std::size_t kMaxAccessSpecs = 1024;
+/// Levels of a client's buffer: it is told above the first, and may be told again once below the
+/// second.
 constexpr double kFullLevel = 0.8;
+constexpr double kRelaxedLevel = 0.5;
 
 // Messages (§16.3) and their responses.
 constexpr std::uint16_t kCloseConnection = 14;
@@ -49,7 +50,20 @@ void write_ok(ByteWriter& writer, const std::string& text = "") {
   write_status(Status::kSuccess, text, writer);
 }
 
-std::uint32_t id_in(const Message& message) { return ByteReader(message.body).u32(); }
+std::uint32_t id_in(const Message& message) {
+  ByteReader body(message.body);
+  const std::uint32_t id = body.u32();
+  body.require_end();
+  return id;
+}
+
+/// The message's only parameter, which must be of this type.
+Parameter only_parameter(const Message& message, std::uint16_t type) {
+  const std::vector<Parameter> all = parameters_of(ByteReader(message.body));
+  Parameter found = require(all, type);
+  require_known(all, {type});
+  return found;
+}
 
 template <class Entries>
 void require_room(const Entries& entries, std::size_t most, const char* what) {
@@ -200,7 +214,7 @@ void LlrpReader::get_config(LiveWorld& /*world*/, const Message& message, ByteWr
 }
 
 void LlrpReader::set_config(LiveWorld& world, const Message& message, ByteWriter& out) {
-  configuration_ = configured(configuration_, ByteReader(message.body));
+  configuration_ = configured(configuration_, ports_, ByteReader(message.body));
   kept_alive_ = world.now();
   write_ok(out);
 }
@@ -226,7 +240,7 @@ void LlrpReader::check_duty(const LiveWorld& /*world*/, const AiSpec& spec) {
 }
 
 void LlrpReader::add_ro_spec(LiveWorld& world, const Message& message, ByteWriter& out) {
-  const RoSpec spec = ro_spec_of(require(parameters_of(ByteReader(message.body)), kRoSpec));
+  const RoSpec spec = ro_spec_of(only_parameter(message, kRoSpec));
   if (ro_specs_.count(spec.id) > 0) {
     throw Fault(Status::kFieldError, fmt::format("there is a ROSpec {} already", spec.id));
   }
@@ -265,6 +279,11 @@ void LlrpReader::change_ro_spec(LiveWorld& world, const Message& message, ByteWr
         if (entry.state == State::kDisabled) {
           throw Fault(Status::kFieldError, fmt::format("ROSpec {} is disabled", each));
         }
+        if (!may_start(entry)) {
+          throw Fault(Status::kFieldError,
+                      fmt::format("ROSpec {} is active, and ROSpec {} has no higher priority",
+                                  running_->id, each));
+        }
         start(world, entry);
         break;
       case 23:
@@ -284,7 +303,8 @@ void LlrpReader::change_ro_spec(LiveWorld& world, const Message& message, ByteWr
   write_ok(out);
 }
 
-void LlrpReader::get_ro_specs(LiveWorld& /*world*/, const Message& /*message*/, ByteWriter& out) {
+void LlrpReader::get_ro_specs(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
+  ByteReader(message.body).require_end();
   write_ok(out);
   for (const auto& [id, entry] : ro_specs_) {
     Bytes whole = entry.spec.whole;
@@ -312,14 +332,15 @@ void LlrpReader::disable(LiveWorld& world, RoEntry& entry) {
   entry.next_start.reset();
 }
 
+/// Only a ROSpec of lower priority is preempted; its number is greater.
+bool LlrpReader::may_start(const RoEntry& entry) {
+  return !running_ || entry.state == State::kActive ||
+         ro_spec(running_->id).spec.priority > entry.spec.priority;
+}
+
 void LlrpReader::start(LiveWorld& world, RoEntry& entry) {
-  if (entry.state == State::kActive) return;
-  if (running_) {
-    // A running ROSpec of the same or higher priority continues; one of lower priority is
-    // preempted.
-    if (ro_spec(running_->id).spec.priority <= entry.spec.priority) return;
-    end(world, entry.spec.id);
-  }
+  if (entry.state == State::kActive || !may_start(entry)) return;
+  if (running_) end(world, entry.spec.id);
   entry.state = State::kActive;
   const bool has_duration = entry.spec.stop == StopAt::kDuration;
   running_ = Running{entry.spec.id,
@@ -553,8 +574,7 @@ void LlrpReader::operate(const TagRead& read, MemoryBanks& tag, TagReport& repor
 }
 
 void LlrpReader::add_access_spec(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
-  const AccessSpec spec =
-      access_spec_of(require(parameters_of(ByteReader(message.body)), kAccessSpec));
+  const AccessSpec spec = access_spec_of(only_parameter(message, kAccessSpec));
   if (access_specs_.count(spec.id) > 0) {
     throw Fault(Status::kFieldError, fmt::format("there is an AccessSpec {} already", spec.id));
   }
@@ -579,8 +599,8 @@ void LlrpReader::change_access_spec(LiveWorld& /*world*/, const Message& message
   write_ok(out);
 }
 
-void LlrpReader::get_access_specs(LiveWorld& /*world*/, const Message& /*message*/,
-                                  ByteWriter& out) {
+void LlrpReader::get_access_specs(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
+  ByteReader(message.body).require_end();
   write_ok(out);
   for (const auto& [id, entry] : access_specs_) {
     Bytes whole = entry.spec.whole;

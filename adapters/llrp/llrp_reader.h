@@ -100,6 +100,7 @@ class LlrpReader {
   RoEntry& ro_spec(std::uint32_t id);
   void enable(LiveWorld& world, RoEntry& entry);
   void disable(LiveWorld& world, RoEntry& entry);
+  [[nodiscard]] bool may_start(const RoEntry& entry);
   void start(LiveWorld& world, RoEntry& entry);
   void end(LiveWorld& world, std::uint32_t preempted_by = 0);
   void be_silent(LiveWorld& world);

@@ -17,6 +17,7 @@ namespace {
 constexpr std::uint16_t kLastEvent = 8;
 constexpr std::uint16_t kReaderChooses = 1000;  ///< RF mode.
 constexpr std::uint16_t kUsualTags = 16;
+constexpr std::uint16_t kHopTable = 1;  ///< The only one.
 /// Impinj's search modes.
 constexpr std::uint16_t kSingleTarget = 1;
 constexpr std::uint16_t kDualTarget = 2;
@@ -36,9 +37,13 @@ void read_events(ByteReader content, std::set<std::uint16_t>& events) {
 }
 
 void read_keepalive(ByteReader content, Duration& keepalive) {
-  const bool is_periodic = content.u8() == 1;
+  const std::uint8_t trigger = content.u8();
   const std::chrono::milliseconds every(content.u32());
-  keepalive = is_periodic ? Duration(every) : Duration{};
+  if (trigger > 1) throw Fault(Status::kFieldError, "a keepalive's trigger must be 0 or 1");
+  if (trigger == 1 && every.count() == 0) {
+    throw Fault(Status::kFieldError, "a keepalive's period must be longer than 0 ms");
+  }
+  keepalive = trigger == 1 ? Duration(every) : Duration{};
 }
 
 void read_parameter(const Parameter& parameter, ReaderConfiguration& configuration) {
@@ -95,7 +100,7 @@ void write_antenna(const AntennaSetting& setting, const Ports& ports, std::uint1
     out.u16(id);
     out.parameter(223, [&] { out.u16(1); });
     out.parameter(224, [&] {
-      out.u16(hops(ports) ? 1 : 0);
+      out.u16(hops(ports) ? kHopTable : 0);
       out.u16(setting.channel_index.value_or(hops(ports) ? 0 : 1));
       out.u16(setting.power_index.value_or(power_index_of(powers, own_dbm)));
     });
@@ -152,6 +157,11 @@ int q_for(std::uint16_t tags) {
   return q;
 }
 
+void require_antenna(std::uint16_t id, const Ports& ports) {
+  if (id <= ports.antennas.size()) return;
+  throw Fault(Status::kFieldError, fmt::format("there is no antenna {}", id));
+}
+
 std::optional<double> power_at(std::optional<std::uint16_t> index, const Ports& ports) {
   if (!index) return std::nullopt;
   const std::vector<double> powers = powers_of(ports);
@@ -172,16 +182,23 @@ void set_inventory(const AntennaSetting& setting, ReaderDuty& duty) {
   if (search == kFocus) duty.session = Session::kS1;
 }
 
+const RfMode& mode_at(std::uint16_t index) {
+  const RfMode* const mode = find_mode(index);
+  if (mode != nullptr) return *mode;
+  throw Fault(Status::kFieldError, fmt::format("there is no RF mode {}", index));
+}
+
 void set_mode(const AntennaSetting& setting, const RadioModel* model, ReaderDuty& duty) {
   if (!setting.mode_index) return;
-  const RfMode* const mode = find_mode(*setting.mode_index);
-  if (mode == nullptr) {
-    throw Fault(Status::kFieldError, fmt::format("there is no RF mode {}", *setting.mode_index));
-  }
-  duty.link = mode->link;
+  duty.link = mode_at(*setting.mode_index).link;
   if (duty.link && model != nullptr && model->gen2) {
     duty.link->epc_bits = model->gen2->link.epc_bits;
   }
+}
+
+void require_channel(std::uint16_t channel, const std::vector<double>& channels) {
+  if (channel > 0 && channel <= channels.size()) return;
+  throw Fault(Status::kFieldError, fmt::format("there is no channel {}", channel));
 }
 
 void set_channels(const AntennaSetting& setting, const Ports& ports, const RadioModel* model,
@@ -198,21 +215,45 @@ void set_channels(const AntennaSetting& setting, const Ports& ports, const Radio
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   for (const std::uint16_t channel : wanted) {
-    if (channel == 0 || channel > channels.size()) {
-      throw Fault(Status::kFieldError, fmt::format("there is no channel {}", channel));
-    }
+    require_channel(channel, channels);
     plan.carriers_hz.push_back(channels[channel - 1U]);
   }
   duty.plan = std::move(plan);
 }
 
+/// Throws Fault if the reader's tables lack an entry that the setting names.
+void check_setting(const AntennaSetting& setting, const Ports& ports) {
+  power_at(setting.power_index, ports);
+  if (setting.mode_index) mode_at(*setting.mode_index);
+  const std::vector<double> channels = channels_of(ports);
+  for (const std::uint16_t channel : setting.fixed_channels) require_channel(channel, channels);
+  if (hops(ports)) {
+    // The channel is ignored (§12.2.6.2).
+    if (setting.hop_table.value_or(kHopTable) == kHopTable) return;
+    throw Fault(Status::kFieldError, fmt::format("there is no hop table {}", *setting.hop_table));
+  }
+  // The hop table is ignored, and without a channel the reader chooses.
+  const std::uint16_t channel = setting.channel_index.value_or(0);
+  if (channel > 0) require_channel(channel, channels);
+}
+
+/// Same for the settings of several antennas.
+void check_settings(const AntennaSettings& settings, const Ports& ports) {
+  for (const auto& [id, setting] : settings) {
+    require_antenna(id, ports);
+    check_setting(setting, ports);
+  }
+}
+
 }  // namespace
 
-ReaderConfiguration configured(const ReaderConfiguration& before, ByteReader message) {
+ReaderConfiguration configured(const ReaderConfiguration& before, const Ports& ports,
+                               ByteReader message) {
   const bool resets = (message.u8() & 0x80U) != 0;
   ReaderConfiguration configuration = resets ? ReaderConfiguration{} : before;
   for (const Parameter& parameter : parameters_of(message))
     read_parameter(parameter, configuration);
+  check_settings(configuration.antennas, ports);
   return configuration;
 }
 
@@ -221,9 +262,7 @@ void write_configuration(const ReaderConfiguration& configuration, const std::st
   const std::uint16_t antenna = message.u16();
   const std::uint8_t requested = message.u8();
   if (requested > 11) throw Fault(Status::kFieldError, "the requested data must be from 0 to 11");
-  if (antenna > ports.antennas.size()) {
-    throw Fault(Status::kFieldError, fmt::format("there is no antenna {}", antenna));
-  }
+  require_antenna(antenna, ports);
   const auto is_asked = [&](std::uint8_t part) { return requested == 0 || requested == part; };
   const auto for_each_antenna = [&](const std::function<void(std::uint16_t)>& write) {
     for (std::size_t i = 1; i <= ports.antennas.size(); ++i) {
@@ -265,12 +304,11 @@ AntennaSetting setting_of(const ReaderConfiguration& configuration, const Antenn
 
 ReaderDuty duty_of(const ReaderConfiguration& configuration, const Ports& ports,
                    const AiSpec& spec) {
+  check_settings(spec.settings, ports);
   ReaderDuty duty;
   const std::vector<std::uint16_t> ids = antennas_of(spec, ports);
   for (const std::uint16_t id : ids) {
-    if (id > ports.antennas.size()) {
-      throw Fault(Status::kFieldError, fmt::format("there is no antenna {}", id));
-    }
+    require_antenna(id, ports);
     if (ports.is_empty[id - 1U]) continue;
     duty.antennas.push_back(
         {ports.antennas[id - 1U].spec.parameters.name,

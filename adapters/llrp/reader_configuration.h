@@ -24,8 +24,10 @@ struct ReaderConfiguration {
   std::uint8_t access_report = 0;
 };
 
-/// The configuration after a SET_READER_CONFIG. Throws Fault if something in it can't be set.
-ReaderConfiguration configured(const ReaderConfiguration& before, ByteReader message);
+/// The configuration of a reader with these ports after a SET_READER_CONFIG. Throws Fault if
+/// something in it can't be set.
+ReaderConfiguration configured(const ReaderConfiguration& before, const Ports& ports,
+                               ByteReader message);
 
 /// Response to a GET_READER_CONFIG for the reader `name`. Throws Fault.
 void write_configuration(const ReaderConfiguration& configuration, const std::string& name,

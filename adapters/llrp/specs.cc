@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 
 namespace tagfield::llrp {
 namespace {
@@ -12,10 +13,14 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::uint8_t kGen2 = 1;  ///< ProtocolID.
-constexpr std::size_t kMaxSpecs = 64;
 
 void require_field(bool holds, const std::string& what) {
   if (!holds) throw Fault(Status::kFieldError, what);
+}
+
+void require_at_most(std::size_t most, std::size_t count, const char* what) {
+  if (count <= most) return;
+  throw Fault(Status::kOverflowParameter, fmt::format("at most {} {}", most, what));
 }
 
 void require_no_gpi(bool asks) {
@@ -67,6 +72,7 @@ void read_inventory_command(ByteReader content, AntennaSetting& setting) {
     if (parameter.type == 331) {
       if (!setting.filters) setting.filters.emplace();
       setting.filters->push_back(filter_of(value));
+      require_at_most(kMaxFilters, setting.filters->size(), "filters per antenna");
     } else if (parameter.type == 335) {
       setting.mode_index = value.u16();
     } else if (parameter.type == 336) {
@@ -96,9 +102,12 @@ void read_stop(ByteReader content, AiSpec& spec) {
   ByteReader value = observation->content;
   spec.observation = value.u8();
   require_field(spec.observation <= 2, "a tag observation trigger must be from 0 to 2");
+  if (spec.observation == 2) {
+    throw Fault(Status::kUnsupportedParameter, "an AISpec can't be stopped after N attempts");
+  }
   value.u8();
   spec.tags = value.u16();
-  value.u16();  // Attempts: rounds are not distinguished.
+  value.u16();  // Attempts.
   spec.quiet = milliseconds(value.u16());
   spec.timeout = milliseconds(value.u32());
 }
@@ -107,6 +116,8 @@ AiSpec ai_spec_of(ByteReader content) {
   AiSpec spec;
   spec.antennas = content.u16_list();
   require_field(!spec.antennas.empty(), "an AISpec needs an antenna, or 0 for all");
+  const std::set<std::uint16_t> different(spec.antennas.begin(), spec.antennas.end());
+  require_field(different.size() == spec.antennas.size(), "an AISpec names an antenna twice");
   const std::vector<Parameter> inner = parameters_of(content);
   require_known(inner, {184, 186});
   read_stop(require(inner, 184).content, spec);
@@ -117,6 +128,7 @@ AiSpec ai_spec_of(ByteReader content) {
     has_inventory = true;
     ByteReader value = parameter.content;
     spec.inventory_spec = value.u16();
+    require_field(spec.inventory_spec != 0, "an InventoryParameterSpec's ID can't be 0");
     require_field(value.u8() == kGen2, "the air protocol must be 1, EPC Gen2");
     for (const Parameter& setting : parameters_of(value)) {
       if (setting.type == kAntennaConfiguration) {
@@ -234,6 +246,7 @@ void read_command(ByteReader content, AccessSpec& spec) {
     }
   }
   if (spec.ops.empty()) throw Fault(Status::kMissingParameter, "an AccessSpec needs an operation");
+  require_at_most(kMaxOpSpecs, spec.ops.size(), "OpSpecs per AccessSpec");
 }
 
 template <class Value>
@@ -289,9 +302,7 @@ RoSpec ro_spec_of(const Parameter& parameter) {
     if (each.type == 183) spec.specs.push_back(ai_spec_of(each.content));
   }
   if (spec.specs.empty()) throw Fault(Status::kMissingParameter, "parameter 183 is missing");
-  if (spec.specs.size() > kMaxSpecs) {
-    throw Fault(Status::kOverflowParameter, fmt::format("at most {} AISpecs", kMaxSpecs));
-  }
+  require_at_most(kMaxAiSpecs, spec.specs.size(), "AISpecs per ROSpec");
   if (const auto report = find(inner, kRoReportSpec)) spec.report = report_spec_of(report->content);
   return spec;
 }

@@ -31,6 +31,13 @@ enum ParameterType : std::uint16_t {
   kCustomParameter = 1023,
 };
 
+/// Limits, which the capabilities state.
+inline constexpr std::size_t kMaxRoSpecs = 32;
+inline constexpr std::size_t kMaxAiSpecs = 64;  ///< Per ROSpec.
+inline constexpr std::size_t kMaxAccessSpecs = 1024;
+inline constexpr std::size_t kMaxOpSpecs = 16;  ///< Per AccessSpec.
+inline constexpr std::size_t kMaxFilters = 8;   ///< Per antenna.
+
 /// A pattern to compare with bits of a tag's memory.
 struct MemoryMask {
   unsigned bank = 1;
@@ -72,7 +79,7 @@ struct AiSpec {
   std::vector<std::uint16_t> antennas;  ///< 0: all.
   StopAt stop = StopAt::kNull;
   Duration duration{};
-  std::uint8_t observation = 0;  ///< Kind of tag observation trigger.
+  std::uint8_t observation = 0;  ///< 0: until N tags are seen; 1: until no new one is for T.
   std::uint16_t tags = 0;
   Duration quiet{};    ///< Its T.
   Duration timeout{};  ///< 0 for none.

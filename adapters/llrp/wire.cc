@@ -66,6 +66,11 @@ ByteReader ByteReader::part(std::size_t size) {
   return taken;
 }
 
+void ByteReader::require_end() const {
+  if (left_ == 0) return;
+  throw Fault(Status::kParameterError, fmt::format("{} bytes follow its end", left_));
+}
+
 Bytes ByteReader::bytes(std::size_t size) {
   const ByteReader taken = part(size);
   return {taken.begin_, taken.begin_ + size};

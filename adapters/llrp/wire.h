@@ -50,6 +50,8 @@ class ByteReader {
   explicit ByteReader(const Bytes& bytes) : ByteReader(bytes.data(), bytes.size()) {}
 
   [[nodiscard]] std::size_t left() const { return left_; }
+  /// Throws Fault if bytes are left.
+  void require_end() const;
   std::uint8_t u8() { return static_cast<std::uint8_t>(number(1)); }
   std::uint16_t u16() { return static_cast<std::uint16_t>(number(2)); }
   std::uint32_t u32() { return static_cast<std::uint32_t>(number(4)); }
