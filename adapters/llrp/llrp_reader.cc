@@ -119,7 +119,7 @@ void LlrpReader::connect(LiveWorld& world, std::shared_ptr<ClientLine> line) {
   now_ = world.now();
   kept_alive_ = now_;
   is_holding_ = configuration_.holds_reports;
-  has_warned_of_buffer_ = false;
+  has_warned_of_buffer_ = has_told_of_overflow_ = false;
   tell_event(kAlways, [](ByteWriter& out) { out.parameter(256, [&] { out.u16(0); }); });
   flush();
 }
@@ -465,7 +465,7 @@ void LlrpReader::watch_antennas(const LiveWorld& world) {
   }
 }
 
-/// Notifies a client that falls behind, and states its losses.
+/// Notifies a client that falls behind, and that it loses reports, once until it has caught up.
 void LlrpReader::tell_line_state() {
   if (!line_) return;
   const double level = line_->level();
@@ -473,13 +473,16 @@ void LlrpReader::tell_line_state() {
     tell_event(kBufferEvents, [&](ByteWriter& out) {
       out.parameter(250, [&] { out.u8(static_cast<std::uint8_t>(100.0 * level)); });
     });
+    has_warned_of_buffer_ = true;
   }
-  has_warned_of_buffer_ = level > kFullLevel;
   dropped_ += line_->take_dropped();
-  if (dropped_ == 0) return;
-  report_warnings({fmt::format("a client is too slow and loses reports")});
+  if (dropped_ > 0 && !has_told_of_overflow_) {
+    report_warnings({"a client is too slow and loses reports"});
+    tell_event(kBufferEvents, [](ByteWriter& out) { out.parameter(251, [] {}); });
+    has_told_of_overflow_ = true;
+  }
   dropped_ = 0;
-  tell_event(kBufferEvents, [](ByteWriter& out) { out.parameter(251, [] {}); });
+  if (level < kRelaxedLevel && !is_holding_) has_warned_of_buffer_ = has_told_of_overflow_ = false;
 }
 
 void LlrpReader::on_step(LiveWorld& world, Time now) {

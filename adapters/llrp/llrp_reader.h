@@ -138,6 +138,7 @@ class LlrpReader {
   Time now_{};
   std::optional<Time> kept_alive_;
   bool has_warned_of_buffer_ = false;
+  bool has_told_of_overflow_ = false;
 
   ReaderConfiguration configuration_;
   std::map<std::uint32_t, RoEntry> ro_specs_;

@@ -27,8 +27,10 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
-/// Bytes queued for a client.
+/// Bytes queued for a client, above which reports are dropped,
 constexpr std::size_t kMaxWaiting = std::size_t{4} << 20U;
+/// and above which a client that takes nothing else either is disconnected.
+constexpr std::size_t kMaxUnread = 2 * kMaxWaiting;
 /// Time limit for the rest of a message, and for a client to receive what was written.
 constexpr std::chrono::seconds kPatience(30);
 constexpr std::chrono::milliseconds kRest(100);
@@ -68,6 +70,10 @@ class ClientSession final : public ClientLine, public std::enable_shared_from_th
       waiting_ += message.size();
       queue_.push_back({message, is_report});
       drop_oldest();
+      if (waiting_ > kMaxUnread && queue_.size() > 1) {
+        asio::post(io_, [self = shared_from_this()] { self->end(); });
+        return;
+      }
       if (is_woken_) return;
       is_woken_ = true;
     }

@@ -268,6 +268,23 @@ Bytes transmitter(std::uint16_t antenna, std::uint16_t hop_table, std::uint16_t 
       [&](ByteWriter& out) { write_transmitter(antenna, hop_table, channel, power, out); });
 }
 
+/// UTC [us] and content of the events of this type among the messages from `begin` on.
+struct Event {
+  std::uint64_t us = 0;
+  Bytes content;
+};
+
+std::optional<Event> event_in(const Message& message, std::uint16_t type) {
+  if (message.type != 63) return std::nullopt;
+  const Parameter data = require(parameters_of(ByteReader(message.body)), 246);
+  const std::vector<Parameter> inner = parameters_of(data.content);
+  const auto found = find(inner, type);
+  if (!found) return std::nullopt;
+  ByteReader stamp = require(inner, kUtcTimestamp).content;
+  ByteReader content = found->content;
+  return Event{stamp.u64(), content.bytes(content.left())};
+}
+
 TEST_F(LlrpReaderTest, StopsAfterAttemptsAreRefused) {
   Asked asked;
   asked.ai_stop = observed(2, 0, 0);
@@ -403,6 +420,27 @@ TEST_F(LlrpReaderTest, OnlyAHigherPriorityStartsWhileAnotherIsActive) {
   EXPECT_EQ(ask(22, 2), Status::kFieldError);
   EXPECT_EQ(ask(22, 3), Status::kSuccess);
   EXPECT_EQ(ask(22, 1), Status::kFieldError);
+}
+
+TEST_F(LlrpReaderTest, AnOverflowIsToldOnce) {
+  const auto overflows = [&] {
+    return std::count_if(line_->received.begin(), line_->received.end(),
+                         [](const Message& message) { return event_in(message, 251).has_value(); });
+  };
+  // The level falls below that of the warning between losses.
+  for (int i = 0; i < 20; ++i) {
+    line_->full = i % 2 == 0 ? 1.0 : 0.7;
+    line_->dropped = 3;
+    run_for(milliseconds(10));
+  }
+  EXPECT_EQ(overflows(), 1);
+  line_->full = 0.1;
+  run_for(milliseconds(20));
+  EXPECT_EQ(overflows(), 1);
+  line_->full = 1.0;
+  line_->dropped = 1;
+  run_for(milliseconds(10));
+  EXPECT_EQ(overflows(), 2);
 }
 
 }  // namespace
