@@ -141,6 +141,7 @@ bool LlrpReader::on_message(LiveWorld& world, const Message& message) {
         flush();
         return true;
       case kGetReport:
+        take_reads(world);
         if (running_) report_gathered(*running_);
         flush();
         return true;
@@ -380,18 +381,18 @@ void LlrpReader::begin_ai_spec(LiveWorld& world) {
   }
 }
 
+/// Takes what the antennas have read so far.
 void LlrpReader::be_silent(LiveWorld& world) {
   try {
     world.set_duty(name_, {});
   } catch (const Error&) {
     // All of its antennas have been removed from the world: it is silent.
-    return;
   }
+  take_held(world);
 }
 
 void LlrpReader::end_ai_spec(LiveWorld& world) {
   Running& running = *running_;
-  // Includes what its antennas have read so far.
   be_silent(world);
   if (running.gathering.spec().trigger == 1) report_gathered(running);
   const std::uint32_t id = running.id;
@@ -414,7 +415,6 @@ void LlrpReader::end(LiveWorld& world, std::uint32_t preempted_by) {
   be_silent(world);
   const std::uint32_t id = running_->id;
   if (running_->gathering.spec().trigger != 0) report_gathered(*running_);
-  ended_ = std::move(running_);
   running_.reset();
   ro_spec(id).state = State::kInactive;
   flush();
@@ -495,6 +495,8 @@ void LlrpReader::on_step(LiveWorld& world, Time now) {
     if (is_there) world.remove_tag(id);
   }
   killed_.clear();
+  // Such a stop depends on what is read, and is not to depend on when antennas update.
+  if (running_ && running_->ai_spec.stop == StopAt::kTagObservation) take_reads(world);
   if (running_) {
     if (now >= running_->ends) {
       end(world);
@@ -510,12 +512,6 @@ void LlrpReader::on_step(LiveWorld& world, Time now) {
     kept_alive_ = now;
     send(kKeepalive, next_id_++, {});
   }
-}
-
-/// The ROSpec that a read with this stamp belongs to, or null.
-LlrpReader::Running* LlrpReader::running_at(Time stamp) {
-  if (running_ && stamp >= running_->began) return &*running_;
-  return ended_ ? &*ended_ : nullptr;
 }
 
 TagReport LlrpReader::report_of(const TagRead& read, const Running& running,
@@ -541,19 +537,36 @@ TagReport LlrpReader::report_of(const TagRead& read, const Running& running,
 }
 
 void LlrpReader::on_read(const TagRead& read) {
-  if (read.reader != name_) return;
-  Running* const running = running_at(read.stamp);
+  if (read.reader == name_ && read.stamp > taken_until_) take(read);
+}
+
+/// Takes all reads until now.
+void LlrpReader::take_reads(LiveWorld& world) {
+  world.update_reader(name_);
+  take_held(world);
+}
+
+/// Takes the reads that the world still holds back.
+void LlrpReader::take_held(const LiveWorld& world) {
+  const Time before = taken_until_;
+  for (const TagRead& read : world.held_reads(name_)) {
+    if (read.stamp > before) take(read);
+    taken_until_ = std::max(taken_until_, read.stamp);
+  }
+}
+
+void LlrpReader::take(const TagRead& read) {
+  if (!running_ || read.stamp < running_->ai_began) return;
+  Running& running = *running_;
   MemoryBanks& tag = tags_->of(read.tag);
-  if (running == nullptr || tag.is_killed() || !is_selected(running->filters, tag)) return;
+  if (tag.is_killed() || !is_selected(running.filters, tag)) return;
   // The ROSpec ended within a step: the reader is silent from then on.
-  if (read.stamp >= running->ends || is_ai_spec_over(*running, read.stamp)) return;
-  if (running->seen.insert(read.tag).second) running->last_new = read.stamp;
-  TagReport report = report_of(read, *running, tag);
+  if (read.stamp >= running.ends || is_ai_spec_over(running, read.stamp)) return;
+  if (running.seen.insert(read.tag).second) running.last_new = read.stamp;
+  TagReport report = report_of(read, running, tag);
   operate(read, tag, report);
-  running->gathering.add(report);
-  const bool is_late =
-      (!running_ || running != &*running_) && running->gathering.spec().trigger != 0;
-  if (is_late || running->gathering.is_full()) report_gathered(*running);
+  running.gathering.add(report);
+  if (running.gathering.is_full()) report_gathered(running);
 }
 
 /// Executes the AccessSpecs for the tag now that it has been singulated.

@@ -113,7 +113,9 @@ class LlrpReader {
   void tell_line_state();
 
   static bool is_ai_spec_over(const Running& running, Time at);
-  Running* running_at(Time stamp);
+  void take_reads(LiveWorld& world);
+  void take_held(const LiveWorld& world);
+  void take(const TagRead& read);
   [[nodiscard]] TagReport report_of(const TagRead& read, const Running& running,
                                     const MemoryBanks& tag) const;
   void operate(const TagRead& read, MemoryBanks& tag, TagReport& report);
@@ -144,9 +146,8 @@ class LlrpReader {
   std::map<std::uint32_t, RoEntry> ro_specs_;
   std::map<std::uint32_t, AccessEntry> access_specs_;
   std::optional<Running> running_;
-  /// The previous one: its last reads arrive after its end if those of other readers may still come
-  /// first.
-  std::optional<Running> ended_;
+  /// Reads until then have been taken, including those that the world held back and delivers later.
+  Time taken_until_ = Time::min();
   Ports ports_;  ///< As of the last step.
   std::map<std::string, bool> faulty_;
   std::deque<Bytes> pending_;        ///< TagReportData waiting for a client.

@@ -268,6 +268,38 @@ Bytes transmitter(std::uint16_t antenna, std::uint16_t hop_table, std::uint16_t 
       [&](ByteWriter& out) { write_transmitter(antenna, hop_table, channel, power, out); });
 }
 
+void LlrpReaderTest::start_other() {
+  Asked asked;
+  asked.trigger = 1;
+  asked.n = 1;
+  EXPECT_EQ(ask(second_, *other_line_, 20, ro_spec(asked)), Status::kSuccess);
+  EXPECT_EQ(ask(second_, *other_line_, 24, u32_bytes(1)), Status::kSuccess);
+  EXPECT_EQ(ask(second_, *other_line_, 22, u32_bytes(1)), Status::kSuccess);
+}
+
+/// A report's tag, as far as these tests look at it.
+struct Tag {
+  unsigned seen = 0;
+  std::uint64_t first_us = 0;
+  unsigned results = 0;
+};
+
+std::vector<Tag> tags_in(const Message& message) {
+  std::vector<Tag> tags;
+  for (const Parameter& data : parameters_of(ByteReader(message.body))) {
+    EXPECT_EQ(data.type, 240);
+    Tag tag;
+    for (const Parameter& parameter : parameters_of(data.content)) {
+      ByteReader content = parameter.content;
+      if (parameter.type == 2) tag.first_us = content.u64();
+      if (parameter.type == 8) tag.seen = content.u16();
+      if (parameter.type == 349) ++tag.results;
+    }
+    tags.push_back(tag);
+  }
+  return tags;
+}
+
 /// UTC [us] and content of the events of this type among the messages from `begin` on.
 struct Event {
   std::uint64_t us = 0;
@@ -285,10 +317,140 @@ std::optional<Event> event_in(const Message& message, std::uint16_t type) {
   return Event{stamp.u64(), content.bytes(content.left())};
 }
 
+/// What a client received of a ROSpec: reads before and after the event of its end.
+struct Outcome {
+  std::size_t reads = 0;
+  std::size_t late_reads = 0;
+  std::size_t ends = 0;
+};
+
+Outcome outcome_of(const std::vector<Message>& messages) {
+  Outcome outcome;
+  for (const Message& message : messages) {
+    const auto event = event_in(message, 249);
+    if (event && event->content.front() == 1) ++outcome.ends;
+    if (message.type != 61) continue;
+    for (const Tag& tag : tags_in(message)) {
+      (outcome.ends > 0 ? outcome.late_reads : outcome.reads) += tag.seen;
+    }
+  }
+  return outcome;
+}
+
+TEST_F(LlrpReaderTest, ItsReportHasAllReadsThoughAnotherReaderReadsToo) {
+  start_other();
+  for (int turn = 0; turn < 12; ++turn) {
+    run_for(milliseconds(50 + 10 * turn));
+    line_->received.clear();
+    Asked asked;
+    asked.duration_ms = 100;
+    EXPECT_EQ(ask(20, ro_spec(asked)), Status::kSuccess);
+    EXPECT_EQ(ask(24, 1), Status::kSuccess);
+    EXPECT_EQ(ask(22, 1), Status::kSuccess);
+    const Time begin = world_.now();
+    run_for(milliseconds(300));
+    EXPECT_EQ(ask(21, 1), Status::kSuccess);
+    run_for(milliseconds(100));
+    const Outcome outcome = outcome_of(line_->received);
+    EXPECT_EQ(outcome.ends, 1U);
+    EXPECT_EQ(outcome.reads, reads_between(begin, begin + milliseconds(100)));
+    EXPECT_GT(outcome.reads, 5U);
+    EXPECT_EQ(outcome.late_reads, 0U);
+  }
+}
+
+TEST_F(LlrpReaderTest, NothingComesAfterItWasStoppedAndDeleted) {
+  start_other();
+  for (int turn = 0; turn < 12; ++turn) {
+    run_for(milliseconds(30 + 10 * turn));
+    line_->received.clear();
+    EXPECT_EQ(ask(20, ro_spec({})), Status::kSuccess);
+    EXPECT_EQ(ask(24, 1), Status::kSuccess);
+    EXPECT_EQ(ask(22, 1), Status::kSuccess);
+    const Time begin = world_.now();
+    run_for(milliseconds(50));
+    const Time end = world_.now();
+    EXPECT_EQ(ask(23, 1), Status::kSuccess);
+    EXPECT_EQ(ask(21, 1), Status::kSuccess);
+    run_for(milliseconds(300));
+    const Outcome outcome = outcome_of(line_->received);
+    EXPECT_EQ(outcome.reads, reads_between(begin, end));
+    EXPECT_GT(outcome.reads, 0U);
+    EXPECT_EQ(outcome.late_reads, 0U);
+  }
+}
+
+class SlowAntennas : public LlrpReaderTest {
+ protected:
+  SlowAntennas() : LlrpReaderTest("2") {}
+
+  /// The end of the AISpec [us] that is stopped like this.
+  std::uint64_t end_us(const std::function<void(ByteWriter&)>& stop) {
+    start_other();
+    run_for(milliseconds(90));
+    Asked asked;
+    asked.ai_stop = stop;
+    EXPECT_EQ(ask(20, ro_spec(asked)), Status::kSuccess);
+    EXPECT_EQ(ask(24, 1), Status::kSuccess);
+    EXPECT_EQ(ask(22, 1), Status::kSuccess);
+    begin_ = world_.now();
+    run_for(milliseconds(3000));
+    for (const Message& message : line_->received) {
+      if (const auto event = event_in(message, 254)) return event->us;
+    }
+    ADD_FAILURE() << "the AISpec did not end";
+    return 0;
+  }
+
+  /// When the first reader had read this many tags [us].
+  [[nodiscard]] double seen_us(std::size_t count) const {
+    std::set<std::string> seen;
+    for (const TagRead& read : air_->reads) {
+      if (read.reader != "r1" || read.stamp < begin_) continue;
+      seen.insert(read.tag);
+      if (seen.size() == count) return to_seconds(read.stamp) * 1e6;
+    }
+    ADD_FAILURE() << "there are fewer than " << count << " tags";
+    return 0.0;
+  }
+
+  Time begin_;
+};
+
+/// Within the step in which the second tag is read, though the antennas update every 500 ms.
+TEST_F(SlowAntennas, EndWhenTheTagsAreSeen) {
+  const auto end = static_cast<double>(end_us(observed(0, 2, 0)));
+  EXPECT_GE(end, seen_us(2));
+  EXPECT_LE(end, seen_us(2) + 10e3);
+}
+
+TEST_F(SlowAntennas, EndWhenNoNewTagIsSeen) {
+  const auto end = static_cast<double>(end_us(observed(1, 0, 50)));
+  EXPECT_GE(end, seen_us(3) + 50e3);
+  EXPECT_LE(end, seen_us(3) + 60e3);
+}
+
 TEST_F(LlrpReaderTest, StopsAfterAttemptsAreRefused) {
   Asked asked;
   asked.ai_stop = observed(2, 0, 0);
   EXPECT_EQ(ask(20, ro_spec(asked)), Status::kUnsupportedParameter);
+}
+
+TEST_F(LlrpReaderTest, GetReportHasWhatWasReadUntilThen) {
+  start_other();
+  Asked asked;
+  asked.trigger = 0;
+  EXPECT_EQ(ask(20, ro_spec(asked)), Status::kSuccess);
+  EXPECT_EQ(ask(24, 1), Status::kSuccess);
+  EXPECT_EQ(ask(22, 1), Status::kSuccess);
+  const Time begin = world_.now();
+  run_for(milliseconds(120));
+  const Time end = world_.now();
+  EXPECT_EQ(outcome_of(line_->received).reads, 0U);
+  EXPECT_TRUE(first_.on_message(world_, {60, 1, {}}));
+  const std::size_t reads = outcome_of(line_->received).reads;
+  run_for(milliseconds(300));
+  EXPECT_EQ(reads, reads_between(begin, end));
 }
 
 TEST_F(LlrpReaderTest, NothingIsConfiguredThatIsNotThere) {
