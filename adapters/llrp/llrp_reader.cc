@@ -142,7 +142,7 @@ bool LlrpReader::on_message(LiveWorld& world, const Message& message) {
         return true;
       case kGetReport:
         take_reads(world);
-        if (running_) report_gathered(*running_);
+        report_all();
         flush();
         return true;
       case kCustomMessage:
@@ -564,29 +564,56 @@ void LlrpReader::take(const TagRead& read) {
   if (read.stamp >= running.ends || is_ai_spec_over(running, read.stamp)) return;
   if (running.seen.insert(read.tag).second) running.last_new = read.stamp;
   TagReport report = report_of(read, running, tag);
-  operate(read, tag, report);
-  running.gathering.add(report);
+  // One AccessSpec per singulation.
+  AccessEntry* const access = access_for(report, tag);
+  if (access != nullptr) operate(*access, read, tag, report);
+  const bool is_for_access =
+      access != nullptr && access->spec.report.value_or(configuration_.access_report) ==
+                               AccessReportAt::kEndOfAccessSpec;
+  if (is_for_access) {
+    ByteWriter encoded;
+    write_report(report, running.gathering.spec(), encoded);
+    access->results.push_back(encoded.written());
+  } else {
+    running.gathering.add(report);
+  }
+  if (access != nullptr) end_if_done(*access);
   if (running.gathering.is_full()) report_gathered(running);
 }
 
-/// Executes the AccessSpecs for the tag now that it has been singulated.
-void LlrpReader::operate(const TagRead& read, MemoryBanks& tag, TagReport& report) {
-  for (auto entry = access_specs_.begin(); entry != access_specs_.end(); ++entry) {
-    auto& [spec, is_enabled, done] = entry->second;
+/// The AccessSpec for the tag that has been singulated, or null.
+LlrpReader::AccessEntry* LlrpReader::access_for(const TagReport& report, const MemoryBanks& tag) {
+  for (auto& [id, entry] : access_specs_) {
+    const AccessSpec& spec = entry.spec;
     const bool is_for_it =
-        is_enabled && (spec.antenna == 0 || spec.antenna == report.antenna) &&
+        entry.is_enabled && (spec.antenna == 0 || spec.antenna == report.antenna) &&
         (spec.ro_spec == 0 || spec.ro_spec == report.ro_spec) &&
         std::all_of(spec.targets.begin(), spec.targets.end(),
                     [&](const MemoryMask& target) { return is_meant(target, tag); });
-    if (!is_for_it) continue;
-    ByteWriter results;
-    for (const OpSpec& op : spec.ops) tagfield::llrp::operate(op, tag, results);
-    report.access_spec = spec.id;
-    report.op_results = results.written();
-    if (tag.is_killed()) killed_.push_back(read.tag);
-    if (spec.operations > 0 && ++done >= spec.operations) access_specs_.erase(entry);
-    return;  // One AccessSpec per singulation.
+    if (is_for_it) return &entry;
   }
+  return nullptr;
+}
+
+/// Executes the AccessSpec.
+void LlrpReader::operate(AccessEntry& entry, const TagRead& read, MemoryBanks& tag,
+                         TagReport& report) {
+  ByteWriter results;
+  for (const OpSpec& op : entry.spec.ops) tagfield::llrp::operate(op, tag, results);
+  report.access_spec = entry.spec.id;
+  report.op_results = results.written();
+  if (tag.is_killed()) killed_.push_back(read.tag);
+  ++entry.done;
+}
+
+/// Deletes the AccessSpec after the last of its operations. One without a number of operations ends
+/// with each execution, as far as its reports are concerned.
+void LlrpReader::end_if_done(AccessEntry& entry) {
+  const std::uint16_t operations = entry.spec.operations;
+  const bool is_done = operations == 0 || entry.done >= operations;
+  if (is_done || entry.results.size() >= kMaxPending) report_results(entry);
+  const std::uint32_t id = entry.spec.id;
+  if (is_done && operations > 0) access_specs_.erase(id);
 }
 
 void LlrpReader::add_access_spec(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
@@ -610,8 +637,10 @@ void LlrpReader::change_access_spec(LiveWorld& /*world*/, const Message& message
   for (auto entry = access_specs_.begin(); entry != access_specs_.end();) {
     const bool is_it = id == 0 || entry->first == id;
     if (is_it) entry->second.is_enabled = message.type == 42;
+    if (is_it && message.type != 42) report_results(entry->second);
     entry = is_it && message.type == 41 ? access_specs_.erase(entry) : std::next(entry);
   }
+  flush();
   write_ok(out);
 }
 
@@ -626,8 +655,20 @@ void LlrpReader::get_access_specs(LiveWorld& /*world*/, const Message& message, 
   }
 }
 
-void LlrpReader::report_gathered(Running& running) {
-  for (Bytes& report : running.gathering.take()) pending_.push_back(std::move(report));
+void LlrpReader::report_gathered(Running& running) { add_pending(running.gathering.take()); }
+
+void LlrpReader::report_results(AccessEntry& entry) {
+  add_pending(std::exchange(entry.results, {}));
+}
+
+/// Regardless of triggers.
+void LlrpReader::report_all() {
+  if (running_) report_gathered(*running_);
+  for (auto& [id, entry] : access_specs_) report_results(entry);
+}
+
+void LlrpReader::add_pending(std::vector<Bytes> reports) {
+  for (Bytes& report : reports) pending_.push_back(std::move(report));
   while (pending_.size() > kMaxPending && (!line_ || is_holding_)) {
     pending_.pop_front();
     ++dropped_;

@@ -69,6 +69,7 @@ class LlrpReader {
     AccessSpec spec;
     bool is_enabled = false;
     std::uint16_t done = 0;
+    std::vector<Bytes> results{};  ///< TagReportData to be sent when it ends.
   };
   /// The active ROSpec.
   struct Running {
@@ -118,8 +119,13 @@ class LlrpReader {
   void take(const TagRead& read);
   [[nodiscard]] TagReport report_of(const TagRead& read, const Running& running,
                                     const MemoryBanks& tag) const;
-  void operate(const TagRead& read, MemoryBanks& tag, TagReport& report);
+  AccessEntry* access_for(const TagReport& report, const MemoryBanks& tag);
+  void operate(AccessEntry& entry, const TagRead& read, MemoryBanks& tag, TagReport& report);
+  void end_if_done(AccessEntry& entry);
+  void report_results(AccessEntry& entry);
   void report_gathered(Running& running);
+  void report_all();
+  void add_pending(std::vector<Bytes> reports);
   void flush();
   void tell_event(std::uint16_t kind, const std::function<void(ByteWriter&)>& write);
   void send(std::uint16_t type, std::uint32_t id, const ByteWriter& body, bool is_report = false);

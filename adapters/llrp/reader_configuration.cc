@@ -57,7 +57,7 @@ void read_parameter(const Parameter& parameter, ReaderConfiguration& configurati
       configuration.report = report_spec_of(content);
       return;
     case kAccessReportSpec:
-      configuration.access_report = content.u8();
+      configuration.access_report = access_report_of(content);
       return;
     case kKeepaliveSpec:
       return read_keepalive(content, configuration.keepalive);
@@ -281,7 +281,8 @@ void write_configuration(const ReaderConfiguration& configuration, const std::st
   if (is_asked(5)) write_events(configuration.events, out);
   if (is_asked(4)) write_report_spec(configuration.report, out);
   if (is_asked(6)) {
-    out.parameter(kAccessReportSpec, [&] { out.u8(configuration.access_report); });
+    out.parameter(kAccessReportSpec,
+                  [&] { out.u8(static_cast<std::uint8_t>(configuration.access_report)); });
   }
   if (is_asked(7)) out.parameter(217, [&] { out.u32(0); });
   if (is_asked(8)) write_keepalive(configuration.keepalive, out);

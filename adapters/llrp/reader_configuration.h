@@ -21,7 +21,7 @@ struct ReaderConfiguration {
   std::set<std::uint16_t> events;  ///< Kinds of §13.1.6.1 that are reported.
   Duration keepalive{};            ///< 0 for none.
   bool holds_reports = false;      ///< After a reconnection, until the client requests them.
-  std::uint8_t access_report = 0;
+  AccessReportAt access_report = AccessReportAt::kRoReport;
 };
 
 /// The configuration of a reader with these ports after a SET_READER_CONFIG. Throws Fault if

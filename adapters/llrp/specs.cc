@@ -332,6 +332,12 @@ ReportSpec report_spec_of(ByteReader content) {
   return spec;
 }
 
+AccessReportAt access_report_of(ByteReader content) {
+  const std::uint8_t trigger = content.u8();
+  require_field(trigger <= 1, "an access report's trigger must be 0 or 1");
+  return static_cast<AccessReportAt>(trigger);
+}
+
 void write_report_spec(const ReportSpec& spec, ByteWriter& writer) {
   writer.parameter(kRoReportSpec, [&] {
     writer.u8(spec.trigger);
@@ -376,6 +382,9 @@ AccessSpec access_spec_of(const Parameter& parameter) {
   const std::uint16_t count = stop.u16();
   spec.operations = type == 1 ? count : 0;
   read_command(require(inner, 209).content, spec);
+  if (const auto report = find(inner, kAccessReportSpec)) {
+    spec.report = access_report_of(report->content);
+  }
   return spec;
 }
 

@@ -131,6 +131,9 @@ struct OpSpec {
   std::vector<LockRequest> locks;
 };
 
+/// When results of operations are reported (§14.2.2).
+enum class AccessReportAt : std::uint8_t { kRoReport = 0, kEndOfAccessSpec = 1 };
+
 struct AccessSpec {
   std::uint32_t id = 0;
   std::uint16_t antenna = 0;        ///< 0: all.
@@ -138,6 +141,7 @@ struct AccessSpec {
   std::uint16_t operations = 0;     ///< Number after which it is deleted; 0 for never.
   std::vector<MemoryMask> targets;  ///< All must match.
   std::vector<OpSpec> ops;
+  std::optional<AccessReportAt> report;
   Bytes whole;
 };
 
@@ -145,6 +149,7 @@ struct AccessSpec {
 RoSpec ro_spec_of(const Parameter& parameter);
 AccessSpec access_spec_of(const Parameter& parameter);
 ReportSpec report_spec_of(ByteReader content);
+AccessReportAt access_report_of(ByteReader content);
 /// Adds the setting in an AntennaConfiguration.
 void read_antenna_setting(ByteReader content, AntennaSettings& settings);
 

@@ -453,6 +453,79 @@ TEST_F(LlrpReaderTest, GetReportHasWhatWasReadUntilThen) {
   EXPECT_EQ(reads, reads_between(begin, end));
 }
 
+/// Numbers of results of the tags in each report that has any.
+std::vector<std::size_t> results_in(const std::vector<Message>& messages) {
+  std::vector<std::size_t> all;
+  for (const Message& message : messages) {
+    if (message.type != 61) continue;
+    std::size_t results = 0;
+    for (const Tag& tag : tags_in(message)) results += tag.results;
+    if (results > 0) all.push_back(results);
+  }
+  return all;
+}
+
+class AccessReports : public LlrpReaderTest {
+ protected:
+  AccessReports() {
+    Asked asked;
+    asked.trigger = 0;
+    EXPECT_EQ(ask(20, ro_spec(asked)), Status::kSuccess);
+    EXPECT_EQ(ask(24, 1), Status::kSuccess);
+    EXPECT_EQ(ask(22, 1), Status::kSuccess);
+  }
+  void access(const AskedAccess& asked) {
+    EXPECT_EQ(ask(40, access_spec(asked)), Status::kSuccess);
+    EXPECT_EQ(ask(42, 5), Status::kSuccess);
+    run_for(milliseconds(300));
+  }
+};
+
+TEST_F(AccessReports, ComeWithTheROReportByDefault) {
+  access({2, {}});
+  EXPECT_TRUE(results_in(line_->received).empty());
+  EXPECT_TRUE(first_.on_message(world_, {60, 1, {}}));
+  EXPECT_EQ(results_in(line_->received), std::vector<std::size_t>{2});
+}
+
+TEST_F(AccessReports, ComeAtTheEndOfTheAccessSpec) {
+  access({2, 1});
+  EXPECT_EQ(results_in(line_->received), std::vector<std::size_t>{2});
+}
+
+TEST_F(AccessReports, ComeAtTheEndAsConfigured) {
+  const Bytes at_end =
+      config([](ByteWriter& out) { out.parameter(kAccessReportSpec, [&] { out.u8(1); }); });
+  EXPECT_EQ(ask(3, at_end), Status::kSuccess);
+  access({2, {}});
+  EXPECT_EQ(results_in(line_->received), std::vector<std::size_t>{2});
+  // The AccessSpec's own setting takes precedence.
+  access({2, 0});
+  EXPECT_EQ(results_in(line_->received), std::vector<std::size_t>{2});
+}
+
+TEST_F(AccessReports, ComeWhenAClientEndsTheAccessSpec) {
+  access({65535, 1});
+  EXPECT_TRUE(results_in(line_->received).empty());
+  EXPECT_EQ(ask(41, 5), Status::kSuccess);
+  ASSERT_EQ(results_in(line_->received).size(), 1U);
+  EXPECT_GT(results_in(line_->received).front(), 5U);
+}
+
+TEST_F(AccessReports, ComeAfterEachExecutionWithoutEnd) {
+  access({0, 1});
+  std::size_t results = 0;
+  for (const std::size_t each : results_in(line_->received)) results += each;
+  EXPECT_GT(results, 5U);
+}
+
+TEST_F(AccessReports, HaveATriggerOfTwo) {
+  EXPECT_EQ(ask(40, access_spec({1, 2})), Status::kFieldError);
+  const Bytes third =
+      config([](ByteWriter& out) { out.parameter(kAccessReportSpec, [&] { out.u8(2); }); });
+  EXPECT_EQ(ask(3, third), Status::kFieldError);
+}
+
 TEST_F(LlrpReaderTest, NothingIsConfiguredThatIsNotThere) {
   const auto keepalive = [](std::uint8_t trigger, std::uint32_t ms) {
     return config([=](ByteWriter& out) {
