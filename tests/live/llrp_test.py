@@ -357,6 +357,10 @@ def tags_are_read_written_locked_and_killed(context):
         operate(first, write_op(1, 2, [int(new[i:i + 4], 16) for i in range(0, 24, 4)]))
         _, results = operate(new, read_op(1, 2, 6))
         check_equal(results[0][1][5:].hex().upper(), new, "EPC after writing")
+        # A length that the EPC memory does not hold is refused.
+        epc, results = operate(new, write_op(1, 1, [0x4800]), read_op(1, 1, 1))
+        check_equal([value[0] for _, value in results], [1, 0], "results of writing too long a length")
+        check_equal((epc, results[1][1][5:]), (new, b"\x30\0"), "EPC and PC")
         # Passwords and locks.
         operate(new, write_op(0, 0, [0, 7, 0xDEAD, 0xBEEF]))
         lock = parameter(344, struct.pack("!HI", 3, 0xDEADBEEF) + parameter(345, b"\0\4"))
@@ -426,6 +430,15 @@ def what_is_wrong_gets_its_status(context):
                 ("an antenna that is not there", 20, spec_of(1, antennas=(5,)), 101),
                 ("a power that is not there", 20, spec_of(1, setting=transmit(500)), 101),
                 ("a start by an input", 20, spec_of(1, start=b"\3"), 111),
+                ("a stop after N attempts", 20, spec_of(1, ai_stop=b"\3" + bytes(4) + parameter(
+                    185, struct.pack("!BBHHHI", 2, 0, 0, 3, 0, 1000))), 111),
+                ("a configured power of 0", 3, b"\0" + transmit(0), 101),
+                ("a configured antenna that is not there", 3, b"\0" + transmit(1, antenna=9), 101),
+                ("a keepalive of an unknown kind", 3,
+                 b"\0" + parameter(220, struct.pack("!BI", 5, 100)), 101),
+                ("too many OpSpecs", 40, access_spec(
+                    1, [read_op(2, 0, 1, number=i) for i in range(17)], "ABCD"), 105),
+                ("GET_ROSPECS with a body", 26, b"\1\2\3", 100),
                 ("half a ROSpec", 20, good[:2] + struct.pack("!H", len(good) - 9) + good[4:-9], 100),
                 ("another parameter", 20, parameter(207, good[4:]), 103),
                 ("a ROSpec that is not there", 24, struct.pack("!I", 4), 101),
@@ -434,6 +447,11 @@ def what_is_wrong_gets_its_status(context):
             check_equal(client.status(kind, body), expected, f"status of {what}")
         client.ask(20, good)
         check_equal(client.status(20, good), 101, "status of the same ROSpec twice")
+        client.ask(20, spec_of(2))
+        client.ask(24, bytes(4))
+        client.ask(22, struct.pack("!I", 1))
+        check_equal(client.status(22, struct.pack("!I", 2)), 101, "status of a start of the same priority")
+        client.ask(21, bytes(4))
         # Another version, and data that is not LLRP: an error, then the connection is closed.
         for data, expected in ((struct.pack("!HII", 2 << 10 | 1, 11, 1) + b"\0", 110),
                                (b"GET / HTTP/1.1\r\n\r\n", 300)):
@@ -572,6 +590,31 @@ def each_reader_has_a_port_of_its_own(context):
         clients = [connected(server, number) for number in range(len(readers))]
         for client in clients:
             client.ask(1, b"\0")
+
+
+@case
+def a_report_is_whole_though_others_read(context):
+    """All reads of a ROSpec are in its report, before the event of its end, while another reader reads."""
+    scenario = context.folder / "two_readers.yaml"
+    antenna = ("  - {{name: a{0}, reader: r{0}, pose: [0, {0}, 1], profiles: [speedway_r420, panel_6dbi], "
+               "channel_plan: etsi_low, inventory: gen2}}\n")
+    scenario.write_text("duration_s: 100\nmodel: link_budget\nantennas:\n" + antenna.format(1) +
+                        antenna.format(2) + "tags:\n"
+                        "  - {id: E20000000000000000000001, position: [1.5, 1, 1]}\n"
+                        "  - {id: E20000000000000000000002, position: [1.5, 2, 1]}\n")
+    with started(context, "--speed", "5", scenario=scenario) as server:
+        other = connected(server, 1)
+        other.ask(20, spec_of(1, start=IMMEDIATE, trigger=0))
+        other.ask(24, struct.pack("!I", 1))
+        client = connected(server)
+        for _ in range(5):
+            client.unasked.clear()
+            seen = sum(tag["seen"] for tag in client.run_for(
+                spec_of(1, start=IMMEDIATE, duration_ms=100, trigger=2, every=0, selected=0xFFC0)))
+            check(seen > 0, "it read nothing")
+            time.sleep(0.1)
+            client.ask(2, struct.pack("!HBHH", 0, 0, 0, 0))
+            check_equal([kind for kind, _ in client.unasked].count(61), 1, "reports")
 
 
 @case
