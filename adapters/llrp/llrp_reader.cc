@@ -414,7 +414,11 @@ void LlrpReader::end_ai_spec(LiveWorld& world) {
 void LlrpReader::end(LiveWorld& world, std::uint32_t preempted_by) {
   be_silent(world);
   const std::uint32_t id = running_->id;
-  if (running_->gathering.spec().trigger != 0) report_gathered(*running_);
+  if (running_->gathering.spec().trigger != 0) {
+    report_gathered(*running_);
+  } else {
+    keep_unasked(running_->gathering.take());
+  }
   running_.reset();
   ro_spec(id).state = State::kInactive;
   flush();
@@ -661,8 +665,19 @@ void LlrpReader::report_results(AccessEntry& entry) {
   add_pending(std::exchange(entry.results, {}));
 }
 
+/// Keeps the reports of a ROSpec without a trigger until a client asks for them.
+void LlrpReader::keep_unasked(std::vector<Bytes> reports) {
+  for (Bytes& report : reports) unasked_.push_back(std::move(report));
+  while (unasked_.size() > kMaxPending) {
+    unasked_.pop_front();
+    ++dropped_;
+  }
+}
+
 /// Regardless of triggers.
 void LlrpReader::report_all() {
+  const std::deque<Bytes> unasked = std::exchange(unasked_, {});
+  add_pending({unasked.begin(), unasked.end()});
   if (running_) report_gathered(*running_);
   for (auto& [id, entry] : access_specs_) report_results(entry);
 }

@@ -126,6 +126,7 @@ class LlrpReader {
   void report_gathered(Running& running);
   void report_all();
   void add_pending(std::vector<Bytes> reports);
+  void keep_unasked(std::vector<Bytes> reports);
   void flush();
   void tell_event(std::uint16_t kind, const std::function<void(ByteWriter&)>& write);
   void send(std::uint16_t type, std::uint32_t id, const ByteWriter& body, bool is_report = false);
@@ -157,6 +158,7 @@ class LlrpReader {
   Ports ports_;  ///< As of the last step.
   std::map<std::string, bool> faulty_;
   std::deque<Bytes> pending_;        ///< TagReportData waiting for a client.
+  std::deque<Bytes> unasked_;        ///< Those of ended ROSpecs, waiting for GET_REPORT.
   std::int64_t dropped_ = 0;         ///< Number of these that were dropped.
   std::vector<std::string> killed_;  ///< Tags to be removed from the world.
 };

@@ -453,6 +453,24 @@ TEST_F(LlrpReaderTest, GetReportHasWhatWasReadUntilThen) {
   EXPECT_EQ(reads, reads_between(begin, end));
 }
 
+TEST_F(LlrpReaderTest, GetReportHasWhatAnEndedROSpecRead) {
+  Asked asked;
+  asked.trigger = 0;
+  asked.duration_ms = 100;
+  EXPECT_EQ(ask(20, ro_spec(asked)), Status::kSuccess);
+  EXPECT_EQ(ask(24, 1), Status::kSuccess);
+  for (int turn = 0; turn < 2; ++turn) {
+    line_->received.clear();
+    EXPECT_EQ(ask(22, 1), Status::kSuccess);
+    const Time begin = world_.now();
+    run_for(milliseconds(300));
+    EXPECT_EQ(outcome_of(line_->received).late_reads, 0U);
+    EXPECT_TRUE(first_.on_message(world_, {60, 1, {}}));
+    EXPECT_EQ(outcome_of(line_->received).late_reads,
+              reads_between(begin, begin + milliseconds(100)));
+  }
+}
+
 /// Numbers of results of the tags in each report that has any.
 std::vector<std::size_t> results_in(const std::vector<Message>& messages) {
   std::vector<std::size_t> all;
