@@ -618,6 +618,26 @@ def a_report_is_whole_though_others_read(context):
 
 
 @case
+def a_client_that_takes_nothing_is_disconnected(context):
+    """Responses aren't dropped as reports are, so a client that asks but never reads would fill the memory."""
+    with started(context) as server:
+        client = connected(server)
+        memory = server.memory_mb()
+        request = struct.pack("!HIIB", 1 << 10 | 1, 11, 1, 0)
+        client.socket.settimeout(20)
+        try:
+            client.socket.sendall(20000 * request)
+            end = time.monotonic() + 20
+            while check(time.monotonic() < end, "it was not disconnected"):
+                client.socket.sendall(request)
+                time.sleep(0.01)
+        except ConnectionError:
+            pass
+        check_between(server.memory_mb(), 0, memory + 60, "memory [MB]")
+        connected(server).ask(1, b"\0")
+
+
+@case
 def the_papers_model_is_warned_of(context):
     with started(context, "--speed", "20", scenario="paper_warehouse") as server:
         client = connected(server)
