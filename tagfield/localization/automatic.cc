@@ -119,7 +119,8 @@ void look_at_all(const LocalizationProblem& problem, DataTraits& traits) {
     traits.antennas = std::max(traits.antennas, of_tag.size());
     for (const auto& [antenna, series] : of_tag) {
       traits.antennas_move = traits.antennas_move || extent_of(series) >= kStillExtent;
-      for (const PhaseSample& sample : series) carriers.insert(sample.frequency_hz);
+      // Those before and after a jump differ by 1 mHz (phase_jumps.h).
+      for (const PhaseSample& sample : series) carriers.insert(std::round(sample.frequency_hz));
     }
   }
   traits.channels = carriers.size();

@@ -8,6 +8,7 @@
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/judgement.h"
+#include "tagfield/localization/phase_jumps.h"
 #include "tagfield/localization/phase_unit.h"
 #include "tagfield/localization/pi_ambiguity.h"
 #include "tagfield/localization/stops.h"
@@ -191,6 +192,10 @@ LocalizationProblem make_problem(const EachRead& each_read, const std::vector<An
       diagnostics.warn("phases jump by π: they are taken as ambiguous (φ or φ + π)");
     }
     double_phases(problem.samples);
+  }
+  if (problem.has_phases) {
+    split_at_phase_jumps(find_phase_jumps(problem.samples), problem.multiple(), problem.samples,
+                         problem.offset_known, diagnostics);
   }
   merge_stops(problem.samples);
   problem.area = known.area;

@@ -61,7 +61,7 @@ void keep_within(const TagArea& area, const PathLine& way, double max_error_m,
 struct PhaseSample {
   Time stamp;
   double phase_rad = 0.0;     ///< In [0, 2π).
-  double frequency_hz = 0.0;  ///< Carrier.
+  double frequency_hz = 0.0;  ///< Carrier: reads with equal ones share an offset (phase_jumps.h).
   Eigen::Vector3d p_WA;       ///< Antenna [m].
   double rssi_dbm = 0.0;
 };
@@ -268,9 +268,10 @@ void warn_of_unknown_heights(const KnownBeforehand& known, const std::vector<std
                              Diagnostics& diagnostics);
 
 /// Joins reads (in any order) with the antennas' believed poses, interpolated at each read's stamp,
-/// subtracts known offsets, doubles phases that have a π ambiguity and merges reads at stops
-/// (stops.h). Reads without a pose are left out with a warning. Throws Error if values in `known`
-/// are not finite or out of range.
+/// subtracts known offsets, doubles phases that have a π ambiguity, separates the channels before
+/// and after a jump of the reader's phase (phase_jumps.h) and merges reads at stops (stops.h).
+/// Reads without a pose are left out with a warning. Throws Error if values in `known` are not
+/// finite or out of range.
 LocalizationProblem make_problem(const std::vector<TagRead>& reads,
                                  const std::vector<AntennaPose>& poses,
                                  const KnownBeforehand& known, Diagnostics& diagnostics);

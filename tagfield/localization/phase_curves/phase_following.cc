@@ -240,4 +240,61 @@ std::vector<PhaseSegment> follow(const std::vector<PhaseSample>& samples, double
   return segments;
 }
 
+namespace {
+
+/// Whether an innovation is as expected.
+bool is_usual(const Expected& expected, double innovation) {
+  constexpr double kUsual = 3.0;
+  return std::abs(innovation) < kUsual * std::sqrt(expected.variance);
+}
+
+/// The change from one sample to the next if it is as expected; nullopt if not.
+std::optional<double> usual_change(Follower& follower, const PhaseSample& one,
+                                   const PhaseSample& next, double noise_rad) {
+  const auto expected = expected_from(follower, one, next, noise_rad);
+  if (!expected) return std::nullopt;
+  const double innovation = innovation_of(*expected, one, next);
+  if (!is_usual(*expected, innovation)) return std::nullopt;
+  return expected->change + innovation;
+}
+
+/// The step from sample `from`, given those before, the last of which was a change of `before_rad`.
+std::optional<FollowedStep> followed_step(Follower ahead, const std::vector<PhaseSample>& samples,
+                                          std::size_t from, double before_rad, double noise_rad) {
+  const PhaseSample& one = samples[from];
+  const PhaseSample& next = samples[from + 1];
+  const auto expected = expected_from(ahead, one, next, noise_rad);
+  if (!expected) return std::nullopt;
+  const auto after = usual_change(ahead, next, samples[from + 2], noise_rad);
+  if (!after) return std::nullopt;
+  FollowedStep step;
+  step.from = from;
+  step.off_rad = innovation_of(*expected, one, next);
+  step.change_rad = expected->change + step.off_rad;
+  step.sigma_rad = std::sqrt(expected->variance);
+  step.before_rad = before_rad;
+  step.after_rad = *after;
+  return step;
+}
+
+}  // namespace
+
+std::vector<FollowedStep> followed_steps(const std::vector<PhaseSample>& samples,
+                                         double noise_rad) {
+  const double noise = noise_with_steps(samples, std::max(noise_rad, kMinNoise));
+  std::vector<FollowedStep> steps;
+  Follower follower = start(noise);
+  std::optional<double> before;
+  for (std::size_t i = 0; i + 2 < samples.size(); ++i) {
+    if (before) {
+      const auto step = followed_step(follower, samples, i, *before, noise);
+      if (step) steps.push_back(*step);
+    }
+    Follower ahead = follower;
+    before = usual_change(ahead, samples[i], samples[i + 1], noise);
+    follow_on(samples[i], samples[i + 1], noise, follower);
+  }
+  return steps;
+}
+
 }  // namespace tagfield

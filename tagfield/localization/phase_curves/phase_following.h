@@ -28,4 +28,20 @@ std::vector<PhaseSegment> follow(const std::vector<PhaseSample>& samples, double
 /// backward in time, so that those at the beginning count, too, and again without those found.
 std::vector<std::size_t> stray_samples(const std::vector<PhaseSample>& samples, double noise_rad);
 
+/// A change of phase from one sample to the next, and those before and after it.
+struct FollowedStep {
+  std::size_t from = 0;     ///< Index of the first of the two samples.
+  double change_rad = 0.0;  ///< Measured, unwrapped to the turn nearest to the expected one.
+  double off_rad = 0.0;     ///< Measured minus expected, wrapped.
+  double sigma_rad = 0.0;   ///< Standard deviation of the expectation.
+  double before_rad = 0.0;  ///< Change over the step before,
+  double after_rad = 0.0;   ///< and over the next one, unwrapped likewise.
+};
+
+/// Steps that can be followed as by follow(), as can those before and after them, which are as
+/// expected (within three standard deviations): no single arbitrary phase makes such a step
+/// unexpected. Nothing is learnt from a step before the next one is expected, as it may not be due
+/// to the antenna's motion.
+std::vector<FollowedStep> followed_steps(const std::vector<PhaseSample>& samples, double noise_rad);
+
 }  // namespace tagfield
