@@ -22,6 +22,7 @@ namespace {
 /// Values of δ on a circle.
 constexpr Eigen::Index kBins = 128;
 using OnCircle = Eigen::Array<double, kBins, 1>;
+using SingleOnCircle = Eigen::Array<float, kBins, 1>;
 
 /// Standard deviations are at least twice the spacing of the bins, so that sums stand for
 /// integrals: 0.1 rad, 1.4 mm of distance.
@@ -75,13 +76,14 @@ OnCircle angles() {
   return OnCircle::LinSpaced(0.0, static_cast<double>(kBins - 1)) * (kTwoPi / kBins);
 }
 
-/// ln f(d − δ) for all δ.
-OnCircle log_density(const Difference& of, const OnCircle& angles) {
-  const double sigma = of.sigma;
-  OnCircle off = angles - static_cast<double>(of.rad);
-  off -= kTwoPi * (off / kTwoPi).round();
-  const double scale = (1.0 - of.arbitrary) / (sigma * std::sqrt(kTwoPi));
-  return (scale * (-0.5 * (off / sigma).square()).exp() + of.arbitrary / kTwoPi).log();
+/// ln f(d − δ) for all δ. In single precision, as there are two for each read.
+OnCircle log_density(const Difference& of, const SingleOnCircle& angles) {
+  constexpr auto kTurn = static_cast<float>(kTwoPi);
+  SingleOnCircle off = angles - of.rad;
+  off -= kTurn * (off * (1.0f / kTurn)).round();
+  const float scale = (1.0f - of.arbitrary) / (of.sigma * std::sqrt(kTurn));
+  off = (scale * (-0.5f * (off / of.sigma).square()).exp() + of.arbitrary / kTurn).log();
+  return off.cast<double>();
 }
 
 /// Probability that a difference is arbitrary if a share of all are.
@@ -216,17 +218,30 @@ AntennaChanges changes_of(const SamplesByTag& samples, const std::string& antenn
 /// channels, counts once, by their mean: it may have moved.
 class Sum {
  public:
-  void add(std::uint32_t tag, const OnCircle& values, double sign) {
+  void add(std::uint32_t tag, const OnCircle& values) {
     OfTag& of = tags_.try_emplace(tag).first->second;
-    if (of.count > 0) all_ -= of.sum / static_cast<double>(of.count);
-    of.count += sign > 0.0 ? 1 : -1;
-    of.sum += sign * values;
-    if (of.count > 0) {
-      all_ += of.sum / static_cast<double>(of.count);
-    } else {
-      tags_.erase(tag);
-    }
+    if (of.count > 0) all_ -= of.mean();
+    of.sum += values;
+    ++of.count;
+    all_ += of.mean();
   }
+
+  /// `values` returns what was added.
+  template <class Values>
+  void take(std::uint32_t tag, const Values& values) {
+    const auto found = tags_.find(tag);
+    OfTag& of = found->second;
+    all_ -= of.mean();
+    --of.count;
+    if (of.count == 0) {
+      tags_.erase(found);
+    } else {
+      of.sum -= values();
+      all_ += of.mean();
+    }
+    if (tags_.empty()) all_.setZero();
+  }
+
   [[nodiscard]] const OnCircle& all() const { return all_; }
   [[nodiscard]] std::size_t tags() const { return tags_.size(); }
 
@@ -234,6 +249,7 @@ class Sum {
   struct OfTag {
     OnCircle sum = OnCircle::Zero();
     int count = 0;
+    [[nodiscard]] OnCircle mean() const { return sum / static_cast<double>(count); }
   };
   std::map<std::uint32_t, OfTag> tags_;
   OnCircle all_ = OnCircle::Zero();
@@ -266,7 +282,11 @@ struct Likelihoods {
 class Search {
  public:
   explicit Search(Way way)
-      : way_(way), angles_(angles()), sines_(angles_.sin()), cosines_(angles_.cos()) {
+      : way_(way),
+        angles_(angles()),
+        single_angles_(angles_.cast<float>()),
+        sines_(angles_.sin()),
+        cosines_(angles_.cos()) {
     for (std::size_t k = 0; k < kSharedCount; ++k) {
       weights_[k] = weights_of(kSharedSigmas[k], angles_);
     }
@@ -306,10 +326,12 @@ class Search {
           begun < begins.size() ? changes[begins[begun]].from : changes[ends[ended]].to;
       std::uint32_t now = std::min(next, changes[ends[ended]].to);
       for (; ended < ends.size() && changes[ends[ended]].to == now; ++ended) {
-        put(changes[ends[ended]], -1.0, sum);
+        const Change& change = changes[ends[ended]];
+        sum.take(change.tag, [&] { return values_of(change); });
       }
       for (; begun < begins.size() && changes[begins[begun]].from == now; ++begun) {
-        put(changes[begins[begun]], 1.0, sum);
+        const Change& change = changes[begins[begun]];
+        sum.add(change.tag, values_of(change));
       }
       if (ended == ends.size()) break;
       std::uint32_t until = changes[ends[ended]].to;
@@ -318,8 +340,8 @@ class Search {
     }
   }
 
-  void put(const Change& change, double sign, Sum& sum) const {
-    sum.add(change.tag, log_density(change.by[way_], angles_), sign);
+  [[nodiscard]] OnCircle values_of(const Change& change) const {
+    return log_density(change.by[way_], single_angles_);
   }
 
   /// Of an interval with this likelihood of δ.
@@ -349,19 +371,19 @@ class Search {
   }
 
   Way way_;
-  OnCircle angles_, sines_, cosines_;
+  OnCircle angles_;
+  SingleOnCircle single_angles_;
+  OnCircle sines_, cosines_;
   OnCircle weights_[kSharedCount];
 };
 
-/// Evidence by poses; 0 at most where neighbours don't support it clearly.
-Evidence evidence_of(const AntennaChanges& of) {
-  Evidence evidence = Search(kByPoses)(of);
+/// Makes evidence by poses 0 at most where neighbours don't support it clearly.
+void confirm(const AntennaChanges& of, Evidence& evidence) {
   const Evidence by_neighbours = Search(kByNeighbours)(of);
   for (std::size_t i = 0; i < evidence.log_factor.size(); ++i) {
     float& factor = evidence.log_factor[i];
     if (by_neighbours.log_factor[i] < kMinLogEvidence) factor = std::min(factor, 0.0f);
   }
-  return evidence;
 }
 
 bool enough_tags(const Evidence& evidence, std::size_t interval) {
@@ -405,7 +427,8 @@ std::vector<PhaseJump> own_jumps(AntennaChanges of, Evidence evidence, double le
     jumps.push_back(
         {of.antenna, of.stamps[*interval], of.stamps[*interval + 1], evidence.step_rad[*interval]});
     take_across(*interval, of.changes);
-    evidence = evidence_of(of);
+    evidence = Search(kByPoses)(of);
+    confirm(of, evidence);
   }
   return jumps;
 }
@@ -474,11 +497,16 @@ std::vector<PhaseJump> find_phase_jumps(const SamplesByTag& samples) {
   std::vector<Evidence> evidence;
   for (const std::string& antenna : moved_antennas(samples)) {
     all.push_back(changes_of(samples, antenna));
-    evidence.push_back(evidence_of(all.back()));
+    evidence.push_back(Search(kByPoses)(all.back()));
   }
   const double least = std::log(static_cast<double>(count_intervals(evidence)) / kJumpFalseAlarms);
   std::vector<PhaseJump> jumps;
+  const bool may_jump = std::any_of(evidence.begin(), evidence.end(), [&](const Evidence& one) {
+    return strongest(one, least).has_value();
+  });
+  if (!may_jump) return jumps;
   for (std::size_t i = 0; i < all.size(); ++i) {
+    confirm(all[i], evidence[i]);
     for (PhaseJump& jump : own_jumps(all[i], evidence[i], least)) jumps.push_back(std::move(jump));
   }
   add_shared_jumps(all, evidence, jumps);
