@@ -46,11 +46,10 @@ TagEstimate located(const LocalizationProblem& problem, const FixedScene& scene,
         std::move(estimate),
         fmt::format("RSSI of all tags shows no significant dependence on distance; {}", kHelp));
   }
-  const StrengthLaw& law = scene.law.of_tag[number];
-  const AreaCells cells{tag.grid.cells, tag.cell_m};
+  const AreaCells cells{tag.grid.places.cells, tag.cell_m};
   const double height = plane_height(problem, *tag.name);
   for (const PosteriorPart& part :
-       posterior_parts(cells, density_of(scene, tag, law, scene.trust, options))) {
+       posterior_parts(cells, density_of(scene, number, scene.trust, options))) {
     estimate.candidates.push_back(candidate_of(part, height));
   }
   const double most = std::min(options.max_expected_error_m, kMostOfArea * tag.spread_m);

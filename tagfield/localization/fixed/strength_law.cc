@@ -6,39 +6,30 @@
 
 #include "tagfield/fit/products.h"
 #include "tagfield/fit/symmetric.h"
+#include "tagfield/localization/fixed/strength_density.h"
 
 namespace tagfield {
 namespace {
 
-constexpr double kNearestCell = 0.1;        ///< Smaller distances are clamped to this [m].
-constexpr double kAnyLevel = 60.0;          ///< Prior standard deviation of the level [dB].
-constexpr double kUsualLevel = -45;         ///< [dBm at 1 m]
-constexpr double kWorth = 4.0;              ///< Weight of the fading's prior, in RSSI values.
-constexpr int kLawRounds = 25;              ///< At most,
-constexpr double kSettled = 0.02;           ///< or until ln of the likelihood changes by less.
-constexpr double kNegligibleWeight = 1e-4;  ///< Cells of less weight are skipped.
+constexpr double kAnyLevel = 60.0;   ///< Prior standard deviation of the level [dB].
+constexpr double kUsualLevel = -45;  ///< [dBm at 1 m]
+constexpr double kWorth = 1.0;       ///< Weight of the fading's prior, in RSSI values.
+/// Where RSSI follows the law exactly, this keeps covariances regular [dB]; below a reader's steps.
+constexpr double kLeastFading = 0.01;
+constexpr int kLawRounds = 100;    ///< At most,
+constexpr double kSettled = 0.02;  ///< or until ln of likelihood and fading change by less.
 
-/// A tag's contribution to the law: its normal equations, and its share of the fading.
+/// A tag's contribution to the law: its normal equations, its share of the fading, and the
+/// probabilities that it is in each of the areas.
 struct Contribution {
   Eigen::MatrixXd normal;
   Eigen::VectorXd right;
   double squares = 0.0;
   double strengths = 0.0;
+  Eigen::ArrayXd areas;
 };
 
 Eigen::Index size_of(std::size_t antennas) { return static_cast<Eigen::Index>(antennas) + 2; }
-
-/// Rows of the linear law: RSSI − gains = H θ.
-Eigen::MatrixXd design(const TagOnGrid& tag, Eigen::Index cell, Eigen::Index size) {
-  const auto count = static_cast<Eigen::Index>(tag.antennas.size());
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(count, size);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    rows(i, 0) = 1.0;
-    rows(i, 1 + static_cast<Eigen::Index>(tag.antennas[static_cast<std::size_t>(i)])) = 1.0;
-    rows(i, size - 1) = -tag.log_distance(cell, i);
-  }
-  return rows;
-}
 
 /// Covariance due to fading and to the tag itself.
 Eigen::MatrixXd scatter(Eigen::Index count, double fading_db, double tag_sigma_db) {
@@ -47,18 +38,9 @@ Eigen::MatrixXd scatter(Eigen::Index count, double fading_db, double tag_sigma_d
   return covariance;
 }
 
-Eigen::VectorXd less_gain(const TagOnGrid& tag, Eigen::Index cell) {
-  return tag.rssi_dbm - tag.gain_db.row(cell).matrix().transpose();
-}
-
-double log_mean_exp(const Eigen::ArrayXd& logs) {
+double log_sum_exp(const Eigen::ArrayXd& logs) {
   const double most = logs.maxCoeff();
-  return most + std::log((logs - most).exp().mean());
-}
-
-Eigen::ArrayXd weights_of(const Eigen::ArrayXd& logs) {
-  const Eigen::ArrayXd weights = (logs - logs.maxCoeff()).exp();
-  return weights / weights.sum();
+  return most + std::log((logs - most).exp().sum());
 }
 
 StrengthLaw before_data(std::size_t antennas, const StrengthPrior& prior) {
@@ -75,44 +57,71 @@ StrengthLaw before_data(std::size_t antennas, const StrengthPrior& prior) {
   return law;
 }
 
+/// Probabilities of the areas for a tag with these probabilities of its cells.
+Eigen::ArrayXd areas_by(const PossiblePlaces& places, const Eigen::VectorXd& weights,
+                        const Eigen::ArrayXd& areas) {
+  if (is_known(places)) return Eigen::ArrayXd::Zero(areas.size());
+  const Eigen::ArrayXXd joint = places.density.rowwise() * areas.transpose();
+  const Eigen::ArrayXd all = joint.rowwise().sum();
+  return (weights.transpose() * (joint.colwise() / all).matrix()).transpose().array();
+}
+
+/// Expectations over the cells, of which `weights` are the probabilities.
 Contribution contribution_of(const TagOnGrid& tag, const StrengthLaw& law,
-                             const Eigen::ArrayXd& weights, const StrengthPrior& prior) {
+                             const Eigen::VectorXd& weights, const StrengthPrior& prior) {
   const Eigen::Index size = law.mean.size();
+  const Eigen::Index slope = size - 1;
   const auto count = static_cast<Eigen::Index>(tag.antennas.size());
   const double tag_variance = prior.tag_sigma_db * prior.tag_sigma_db;
   const Eigen::MatrixXd inverse =
       invert_symmetric(scatter(count, law.fading_db, prior.tag_sigma_db));
+  const Eigen::MatrixXd levels = levels_of(tag, slope);
+  const Eigen::MatrixXd& distances = tag.log_distance;
+  const Eigen::MatrixXd strengths = (-tag.gain_db).colwise() + tag.rssi_dbm;
+  const Eigen::MatrixXd weighted = distances * weights.asDiagonal();
+  const Eigen::VectorXd distance = distances * weights;
+  const Eigen::MatrixXd squared_distances = product(weighted, distances.transpose());
+  Contribution of{
+      Eigen::MatrixXd(size, size), Eigen::VectorXd(size), 0.0, static_cast<double>(count), {}};
+  const Eigen::MatrixXd to_levels = product(levels.transpose(), inverse);
+  of.normal.topLeftCorner(slope, slope) = product(to_levels, levels);
+  of.normal.col(slope).head(slope) = -to_levels * distance;
+  of.normal.row(slope).head(slope) = of.normal.col(slope).head(slope).transpose();
+  of.normal(slope, slope) = inverse.cwiseProduct(squared_distances).sum();
+  of.right.head(slope) = to_levels * (strengths * weights);
+  of.right[slope] = -inverse.cwiseProduct(product(weighted, strengths.transpose())).sum();
   // Gain that estimates the tag's own deviation from the sum of its misfits.
   const double gain =
       tag_variance / (law.fading_db * law.fading_db + static_cast<double>(count) * tag_variance);
-  Contribution contribution{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0,
-                            static_cast<double>(count)};
-  for (Eigen::Index cell = 0; cell < weights.size(); ++cell) {
-    if (weights[cell] < kNegligibleWeight) continue;
-    const Eigen::MatrixXd rows = design(tag, cell, size);
-    const Eigen::VectorXd strengths = less_gain(tag, cell);
-    const Eigen::MatrixXd weighted = weights[cell] * product(rows.transpose(), inverse);
-    contribution.normal += product(weighted, rows);
-    contribution.right += weighted * strengths;
-    const Eigen::VectorXd misfit = strengths - rows * law.mean;
-    const double own = gain * misfit.sum();
-    contribution.squares +=
-        weights[cell] * ((misfit.array() - own).square().sum() +
-                         static_cast<double>(count) * gain * law.fading_db * law.fading_db +
-                         transformed(rows, law.covariance).trace());
-  }
-  return contribution;
+  Eigen::MatrixXd misfit = strengths + law.mean[slope] * distances;
+  misfit.colwise() -= levels * law.mean.head(slope);
+  const Eigen::RowVectorXd own = gain * misfit.colwise().sum();
+  misfit.rowwise() -= own;
+  const Eigen::VectorXd with_slope = levels * law.covariance.col(slope).head(slope);
+  of.squares = misfit.colwise().squaredNorm() * weights +
+               static_cast<double>(count) * gain * law.fading_db * law.fading_db +
+               transformed(levels, law.covariance.topLeftCorner(slope, slope)).trace() -
+               2.0 * distance.dot(with_slope) +
+               law.covariance(slope, slope) * squared_distances.trace();
+  return of;
 }
 
-Contribution sum_of(const std::vector<Contribution>& all, Eigen::Index size) {
-  Contribution sum{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0, 0.0};
+Contribution sum_of(const std::vector<Contribution>& all, Eigen::Index size, Eigen::Index areas) {
+  Contribution sum{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0, 0.0,
+                   Eigen::ArrayXd::Zero(areas)};
   for (const Contribution& contribution : all) {
     sum.normal += contribution.normal;
     sum.right += contribution.right;
     sum.squares += contribution.squares;
     sum.strengths += contribution.strengths;
+    sum.areas += contribution.areas;
   }
   return sum;
+}
+
+/// Probabilities of the areas before any tag: all alike, which is worth one tag.
+Eigen::ArrayXd areas_before(Eigen::Index count) {
+  return Eigen::ArrayXd::Constant(count, 1.0 / static_cast<double>(count));
 }
 
 /// The prior law updated with all contributions except that of one tag.
@@ -132,7 +141,7 @@ StrengthLaw law_by(const StrengthLaw& before, const Contribution& all,
   StrengthLaw law;
   law.covariance = invert_symmetric(normal);
   law.mean = law.covariance * right;
-  law.fading_db = std::sqrt(std::max(squares / strengths, 0.25));
+  law.fading_db = std::sqrt(std::max(squares / strengths, kLeastFading * kLeastFading));
   return law;
 }
 
@@ -143,15 +152,16 @@ double log_of_chance(const std::vector<TagOnGrid>& tags, const StrengthLaw& flat
   const Eigen::Index size = flat.mean.size();
   std::vector<Contribution> contributions;
   for (const TagOnGrid& tag : tags) {
-    const Eigen::MatrixXd rows = design(tag, 0, size);
+    const Eigen::MatrixXd rows = levels_of(tag, size);
     const Eigen::MatrixXd weighted = product(
         rows.transpose(), invert_symmetric(scatter(rows.rows(), flat.fading_db, tag_sigma_db)));
-    contributions.push_back({product(weighted, rows), weighted * tag.rssi_dbm, 0.0, 0.0});
+    contributions.push_back(
+        {product(weighted, rows), weighted * tag.rssi_dbm, 0.0, 0.0, Eigen::ArrayXd::Zero(1)});
   }
-  const Contribution sum = sum_of(contributions, size);
+  const Contribution sum = sum_of(contributions, size, 1);
   double log = 0.0;
   for (std::size_t i = 0; i < tags.size(); ++i) {
-    const Eigen::MatrixXd rows = design(tags[i], 0, size);
+    const Eigen::MatrixXd rows = levels_of(tags[i], size);
     const StrengthLaw law = law_by(flat, sum, &contributions[i]);
     Eigen::VectorXd misfit = tags[i].rssi_dbm - rows * law.mean;
     Eigen::MatrixXd covariance =
@@ -171,88 +181,44 @@ double log_of_chance(const std::vector<TagOnGrid>& tags, std::size_t antennas,
     prior.fading_db = std::pow(2.0, 0.5 * static_cast<double>(i));
     logs[i] = log_of_chance(tags, before_data(antennas, prior), prior.tag_sigma_db);
   }
-  return log_mean_exp(logs);
+  return log_sum_exp(logs) - std::log(static_cast<double>(logs.size()));
 }
 
 }  // namespace
 
-TagOnGrid on_grid(const std::vector<std::string>& names, const std::vector<FixedReads>& reads,
-                  std::vector<Eigen::Vector3d> cells, const Lobe& lobe) {
-  std::vector<const FixedReads*> used;
-  TagOnGrid tag;
-  for (const FixedReads& of : reads) {
-    const auto found = std::find(names.begin(), names.end(), of.antenna);
-    if (of.strengths < 1.0 || found == names.end()) continue;
-    used.push_back(&of);
-    tag.antennas.push_back(static_cast<std::size_t>(found - names.begin()));
-  }
-  const auto count = static_cast<Eigen::Index>(used.size());
-  const auto places = static_cast<Eigen::Index>(cells.size());
-  tag.rssi_dbm.resize(count);
-  tag.log_distance.resize(places, count);
-  tag.gain_db.resize(places, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const FixedReads& of = *used[static_cast<std::size_t>(i)];
-    tag.rssi_dbm[i] = of.rssi_dbm;
-    for (Eigen::Index j = 0; j < places; ++j) {
-      const Eigen::Vector3d way = cells[static_cast<std::size_t>(j)] - of.p_WA;
-      tag.log_distance(j, i) = std::log10(std::max(way.norm(), kNearestCell));
-      tag.gain_db(j, i) = lobe_db(lobe, of.boresight_W, way);
-    }
-  }
-  tag.cells = std::move(cells);
-  return tag;
-}
-
-Eigen::ArrayXd log_strength(const TagOnGrid& tag, const StrengthLaw& law,
-                            const StrengthPrior& prior) {
-  const Eigen::Index count = tag.rssi_dbm.size();
-  const Eigen::Index slope = law.mean.size() - 1;
-  // design() differs between cells only in its last column, the negative logarithms of the
-  // distances.
-  const Eigen::MatrixXd levels = design(tag, 0, law.mean.size()).leftCols(slope);
-  const Eigen::MatrixXd of_levels = scatter(count, law.fading_db, prior.tag_sigma_db) +
-                                    transformed(levels, law.covariance.topLeftCorner(slope, slope));
-  const Eigen::VectorXd with_slope = levels * law.covariance.col(slope).head(slope);
-  const Eigen::VectorXd over_level = tag.rssi_dbm - levels * law.mean.head(slope);
-  Eigen::ArrayXd logs(static_cast<Eigen::Index>(tag.cells.size()));
-  Eigen::VectorXd distances(count);
-  Eigen::VectorXd misfit(count);
-  Eigen::MatrixXd covariance(count, count);
-  for (Eigen::Index cell = 0; cell < logs.size(); ++cell) {
-    distances = tag.log_distance.row(cell).matrix().transpose();
-    misfit = over_level - tag.gain_db.row(cell).matrix().transpose() + law.mean[slope] * distances;
-    covariance = of_levels;
-    covariance.noalias() -= with_slope * distances.transpose();
-    covariance.noalias() -= distances * with_slope.transpose();
-    covariance.noalias() += law.covariance(slope, slope) * distances * distances.transpose();
-    logs[cell] = log_normal_density(misfit, covariance);
-  }
-  return logs;
-}
-
 LearnedLaw learn_law(const std::vector<TagOnGrid>& tags, std::size_t antennas,
                      const StrengthPrior& prior) {
   const StrengthLaw before = before_data(antennas, prior);
+  const Eigen::Index areas = tags.empty() ? 1 : tags.front().places.density.cols();
   LearnedLaw learned;
   learned.of_all = before;
   learned.of_tag.assign(tags.size(), before);
+  learned.areas_of_tag.assign(tags.size(), areas_before(areas));
   std::vector<Contribution> contributions(tags.size());
   double log_of_law = 0.0;
   for (int round = 0; round < kLawRounds; ++round) {
     const double before_round = log_of_law;
+    const double fading_before = learned.of_all.fading_db;
     log_of_law = 0.0;
     for (std::size_t i = 0; i < tags.size(); ++i) {
-      const Eigen::ArrayXd logs = log_strength(tags[i], learned.of_tag[i], prior);
-      log_of_law += log_mean_exp(logs);
-      contributions[i] = contribution_of(tags[i], learned.of_all, weights_of(logs), prior);
+      const TagOnGrid fine = refined(tags[i], learned.of_tag[i], prior);
+      const Eigen::ArrayXd logs = log_strength(fine, learned.of_tag[i], prior) +
+                                  log_prior(fine.places, learned.areas_of_tag[i]);
+      const double log = log_sum_exp(logs);
+      log_of_law += log;
+      const Eigen::VectorXd weights = (logs - log).exp().matrix();
+      contributions[i] = contribution_of(fine, learned.of_all, weights, prior);
+      contributions[i].areas = areas_by(fine.places, weights, learned.areas_of_tag[i]);
     }
-    const Contribution sum = sum_of(contributions, before.mean.size());
+    const Contribution sum = sum_of(contributions, before.mean.size(), areas);
     learned.of_all = law_by(before, sum, nullptr);
     for (std::size_t i = 0; i < tags.size(); ++i) {
       learned.of_tag[i] = law_by(before, sum, &contributions[i]);
+      const Eigen::ArrayXd counts = areas_before(areas) + sum.areas - contributions[i].areas;
+      learned.areas_of_tag[i] = counts / counts.sum();
     }
-    if (round > 0 && std::abs(log_of_law - before_round) < kSettled) break;
+    const double change = learned.of_all.fading_db / fading_before - 1.0;
+    if (std::abs(log_of_law - before_round) < kSettled && std::abs(change) < kSettled) break;
   }
   // Slope and positions were fitted to n RSSI values: Schwarz's criterion takes ½ ln n for each of
   // the two.

@@ -8,8 +8,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "tagfield/localization/fixed/fixed_reads.h"
-#include "tagfield/localization/signal_strength/lobe.h"
+#include "tagfield/localization/fixed/strength_grid.h"
 
 namespace tagfield {
 
@@ -22,19 +21,6 @@ struct StrengthPrior : Lobe {
   double fading_db = 4.0;         ///< Per antenna and tag, due to reflections and orientation.
 };
 
-/// Possible positions of a tag, and the RSSI it was read with.
-struct TagOnGrid {
-  std::vector<Eigen::Vector3d> cells;  ///< Positions [m, world], all equally likely a priori.
-  std::vector<std::size_t> antennas;   ///< Indices of the antennas that read it,
-  Eigen::VectorXd rssi_dbm;            ///< with one value each.
-  /// Per cell (row) and antenna: logarithm of the distance, and gain of the lobe [dB].
-  Eigen::ArrayXXd log_distance, gain_db;
-};
-
-/// `names`: all antennas, in the order of their indices.
-TagOnGrid on_grid(const std::vector<std::string>& names, const std::vector<FixedReads>& reads,
-                  std::vector<Eigen::Vector3d> cells, const Lobe& lobe);
-
 /// Level, antenna deviations and slope with their covariance, and the fading.
 struct StrengthLaw {
   Eigen::VectorXd mean;  ///< Level [dBm at 1 m], deviation of each antenna [dB], slope [dB].
@@ -46,6 +32,8 @@ struct StrengthLaw {
 struct LearnedLaw {
   std::vector<StrengthLaw> of_tag;  ///< For each tag, the law learned from all others.
   StrengthLaw of_all;
+  /// For each tag, the probabilities of the areas of its places, learned from all others.
+  std::vector<Eigen::ArrayXd> areas_of_tag;
   /// ln of the likelihood ratio of this law against pure scatter of any width.
   double evidence = 0.0;
 };
@@ -53,9 +41,5 @@ struct LearnedLaw {
 /// Expectation maximization over the tags' positions. `antennas`: their number.
 LearnedLaw learn_law(const std::vector<TagOnGrid>& tags, std::size_t antennas,
                      const StrengthPrior& prior);
-
-/// ln p(RSSI | cell), all constants included.
-Eigen::ArrayXd log_strength(const TagOnGrid& tag, const StrengthLaw& law,
-                            const StrengthPrior& prior);
 
 }  // namespace tagfield

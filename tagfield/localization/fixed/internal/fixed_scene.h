@@ -4,6 +4,7 @@
 /// all tags.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,15 @@ struct FixedTag {
   std::vector<FixedReads> reads;
   TagOnGrid grid;
   double cell_m = 0.0;
-  double spread_m = 0.0;  ///< Of the area alone.
+  Eigen::ArrayXd areas_m2;  ///< How much of each area the tag may be in [m²].
+  double spread_m = 0.0;    ///< Of its places before RSSI and phases.
   std::string why_not;
 };
 
 struct FixedScene {
   std::vector<std::string> antennas;
   std::vector<FixedTag> tags;
+  std::vector<Eigen::AlignedBox2d> areas;  ///< Each in the one before it.
   LearnedLaw law;
   ChannelTurns offsets;
   PhaseField field;
@@ -35,6 +38,12 @@ struct FixedScene {
   std::string swapped;        ///< The two antennas that appear to be swapped, or "".
   bool out_of_order = false;  ///< The phases contradict the given carriers and are not used.
 };
+
+/// Per place (row) and area: probability density [1/m²] of a tag in the area, of which it may be in
+/// `areas_m2`. An area in which it cannot be counts as the one around it.
+Eigen::ArrayXXd densities_in(const std::vector<Eigen::AlignedBox2d>& areas,
+                             const Eigen::ArrayXd& areas_m2,
+                             const std::vector<Eigen::Vector3d>& places);
 
 /// Learns the path-loss law, the channel offsets and the phase field from all tags.
 FixedScene fixed_scene(const LocalizationProblem& problem, int threads,

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/localization/fixed/strength_density.h"
 
 namespace tagfield {
 namespace {
@@ -33,13 +35,14 @@ double log_of_field(const FixedScene& scene, const std::vector<std::size_t>& som
     const FixedTag& tag = scene.tags[some[i]];
     for (const FixedReads& reads : tag.reads) {
       double most = 0.0;
-      for (const auto& cell : tag.grid.cells) most = std::max(most, (cell - reads.p_WA).norm());
+      for (const auto& cell : tag.grid.places.cells)
+        most = std::max(most, (cell - reads.p_WA).norm());
       const RangeLikelihood of = range_likelihood(reads, scene.offsets, field, most, kRangeStep);
       if (of.log.size() == 0) continue;
       const double best = of.log.maxCoeff();
       double sum = 0.0;
-      for (std::size_t j = 0; j < tag.grid.cells.size(); ++j) {
-        const double r = (tag.grid.cells[j] - reads.p_WA).norm();
+      for (std::size_t j = 0; j < tag.grid.places.cells.size(); ++j) {
+        const double r = (tag.grid.places.cells[j] - reads.p_WA).norm();
         sum += weights[i][static_cast<Eigen::Index>(j)] * std::exp(most_likely(of, r, 0.0) - best);
       }
       log += best + std::log(sum + 1e-300);
@@ -54,7 +57,7 @@ std::vector<RangeLikelihood> ranges_of(const FixedScene& scene, const FixedTag& 
   for (const FixedReads& reads : tag.reads) {
     double least = std::numeric_limits<double>::infinity();
     double most = 0.0;
-    for (const auto& cell : tag.grid.cells) {
+    for (const auto& cell : tag.grid.places.cells) {
       least = std::min(least, (cell - reads.p_WA).norm());
       most = std::max(most, (cell - reads.p_WA).norm());
     }
@@ -78,7 +81,9 @@ PhaseField likeliest_field(const FixedScene& scene, const LocalizationProblem& p
   const std::vector<std::size_t> some = informative_tags(scene, problem);
   std::vector<Eigen::ArrayXd> weights;
   for (const std::size_t i : some) {
-    const Eigen::ArrayXd logs = log_strength(scene.tags[i].grid, scene.law.of_tag[i], options);
+    const TagOnGrid& grid = scene.tags[i].grid;
+    const Eigen::ArrayXd logs = log_strength(grid, scene.law.of_tag[i], options) +
+                                log_prior(grid.places, scene.law.areas_of_tag[i]);
     weights.push_back((logs - logs.maxCoeff()).exp());
   }
   std::vector<PhaseField> fields;
@@ -98,12 +103,21 @@ PhaseField likeliest_field(const FixedScene& scene, const LocalizationProblem& p
                                          logs.begin())];
 }
 
-LogDensity density_of(const FixedScene& scene, const FixedTag& tag, const StrengthLaw& law,
-                      double trust, const FixedOptions& options) {
-  return [&scene, &tag, &law, &options, ranges = ranges_of(scene, tag, trust)](
+LogDensity density_of(const FixedScene& scene, std::size_t number, double trust,
+                      const FixedOptions& options) {
+  const FixedTag& tag = scene.tags[number];
+  const StrengthLaw& law = scene.law.of_tag[number];
+  const Eigen::ArrayXd& areas = scene.law.areas_of_tag[number];
+  return [&scene, &tag, &law, &areas, &options, ranges = ranges_of(scene, tag, trust)](
              const std::vector<Eigen::Vector3d>& places, double reach_m) {
-    const TagOnGrid there = on_grid(scene.antennas, tag.reads, places, options);
-    Eigen::ArrayXd logs = log_strength(there, law, options);
+    const auto count = static_cast<Eigen::Index>(places.size());
+    // The prior has no unit: one that is constant does not change anything.
+    PossiblePlaces cells{places, Eigen::ArrayXd::Ones(count),
+                         densities_in(scene.areas, tag.areas_m2, places)};
+    Eigen::ArrayXd logs = log_prior(cells, areas);
+    if (reach_m > 0.0) cells.size_m *= reach_m;
+    const TagOnGrid there = on_grid(scene.antennas, tag.reads, std::move(cells), options);
+    logs += log_strength(there, law, options, reach_m > 0.0 ? 1.0 : 0.0);
     for (std::size_t a = 0; a < ranges.size(); ++a) {
       if (ranges[a].log.size() == 0) continue;
       for (std::size_t i = 0; i < places.size(); ++i) {
@@ -123,8 +137,8 @@ double trust_of(const FixedScene& scene, const LocalizationProblem& problem,
   parallel_for(sums.size(), threads, [&](std::size_t k) {
     for (const std::size_t i : some) {
       const FixedTag& tag = scene.tags[i];
-      sums[k] += log_integral({tag.grid.cells, tag.cell_m},
-                              density_of(scene, tag, scene.law.of_tag[i], kTrusts[k], options));
+      sums[k] += log_integral({tag.grid.places.cells, tag.cell_m},
+                              density_of(scene, i, kTrusts[k], options));
     }
   });
   return kTrusts[std::max_element(sums.begin(), sums.end()) - sums.begin()];

@@ -12,10 +12,10 @@ namespace tagfield {
 PhaseField likeliest_field(const FixedScene& scene, const LocalizationProblem& problem,
                            const FixedOptions& options, int threads);
 
-/// Density of a tag's position from RSSI under `law` and from phases, weighted by `trust`. All
-/// arguments except `trust` must outlive the result.
-LogDensity density_of(const FixedScene& scene, const FixedTag& tag, const StrengthLaw& law,
-                      double trust, const FixedOptions& options);
+/// Density of the position of the tag with this index from RSSI, from phases, weighted by `trust`,
+/// and from where the other tags are. Scene and options must outlive the result.
+LogDensity density_of(const FixedScene& scene, std::size_t number, double trust,
+                      const FixedOptions& options);
 
 /// Reliability of the phases' ranges: the exponent of their likelihoods at which the ranges of
 /// several antennas, which overdetermine the position, agree best with one another and with the

@@ -16,20 +16,18 @@ namespace tagfield {
 namespace {
 
 /// The same tags with two antennas' poses exchanged.
-std::vector<TagOnGrid> with_exchanged(const FixedScene& scene,
-                                      const std::vector<std::size_t>& numbers,
+std::vector<TagOnGrid> with_exchanged(const FixedScene& scene, std::vector<TagOnGrid> grids,
                                       const FixedReads& one, const FixedReads& other,
                                       const FixedOptions& options) {
-  std::vector<TagOnGrid> grids;
-  for (const std::size_t number : numbers) {
-    std::vector<FixedReads> reads = scene.tags[number].reads;
-    for (FixedReads& of : reads) {
-      const bool is_one = of.antenna == one.antenna;
-      if (!is_one && of.antenna != other.antenna) continue;
-      of.p_WA = is_one ? other.p_WA : one.p_WA;
-      of.boresight_W = is_one ? other.boresight_W : one.boresight_W;
+  for (TagOnGrid& grid : grids) {
+    for (std::size_t i = 0; i < grid.antennas.size(); ++i) {
+      const std::string& antenna = scene.antennas[grid.antennas[i]];
+      const bool is_one = antenna == one.antenna;
+      if (!is_one && antenna != other.antenna) continue;
+      grid.p_WA[i] = is_one ? other.p_WA : one.p_WA;
+      grid.boresight_W[i] = is_one ? other.boresight_W : one.boresight_W;
     }
-    grids.push_back(on_grid(scene.antennas, reads, scene.tags[number].grid.cells, options));
+    put_on(grid.places, options, grid);
   }
   return grids;
 }
@@ -62,7 +60,7 @@ std::string swapped_antennas(const FixedScene& scene, const std::vector<std::siz
   }
   std::vector<double> evidences(pairs.size());
   parallel_for(pairs.size(), threads, [&](std::size_t i) {
-    const auto exchanged = with_exchanged(scene, some, *pairs[i].first, *pairs[i].second, options);
+    const auto exchanged = with_exchanged(scene, grids, *pairs[i].first, *pairs[i].second, options);
     evidences[i] = learn_law(exchanged, scene.antennas.size(), options).evidence;
   });
   const double as_given = some.size() == numbers.size()

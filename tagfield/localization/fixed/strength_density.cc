@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tagfield/localization/fixed/strength_density.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kLost = 12.0;             ///< Cells this far below the best [ln] are dropped.
+constexpr double kCorner = 0.7072;         ///< From the middle of a cell to its corner, in sizes.
+constexpr double kSmallest = 1e-3;         ///< [m]
+constexpr std::size_t kMostCells = 20000;  ///< With more cells, none is split further.
+
+/// Cells by their numbers, whole or split into four.
+PossiblePlaces some_of(const PossiblePlaces& places, const std::vector<Eigen::Index>& numbers,
+                       bool split) {
+  const Eigen::Index parts = split ? 4 : 1;
+  const Eigen::Index count = parts * static_cast<Eigen::Index>(numbers.size());
+  PossiblePlaces some{{}, Eigen::ArrayXd(count), Eigen::ArrayXXd(count, places.density.cols())};
+  for (const Eigen::Index number : numbers) {
+    const double size = places.size_m[number];
+    for (Eigen::Index part = 0; part < parts; ++part) {
+      const auto row = static_cast<Eigen::Index>(some.cells.size());
+      const Eigen::Vector3d quarter(part % 2 == 0 ? -0.25 : 0.25, part < 2 ? -0.25 : 0.25, 0.0);
+      const double step = split ? size : 0.0;
+      some.cells.emplace_back(places.cells[static_cast<std::size_t>(number)] + step * quarter);
+      some.size_m[row] = split ? 0.5 * size : size;
+      some.density.row(row) = places.density.row(number);
+    }
+  }
+  return some;
+}
+
+PossiblePlaces joined(const std::vector<PossiblePlaces>& all) {
+  PossiblePlaces sum;
+  Eigen::Index count = 0;
+  for (const PossiblePlaces& some : all) count += some.size_m.size();
+  sum.size_m.resize(count);
+  sum.density.resize(count, all.front().density.cols());
+  for (const PossiblePlaces& some : all) {
+    const auto row = static_cast<Eigen::Index>(sum.cells.size());
+    sum.cells.insert(sum.cells.end(), some.cells.begin(), some.cells.end());
+    sum.size_m.segment(row, some.size_m.size()) = some.size_m;
+    sum.density.middleRows(row, some.size_m.size()) = some.density;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Eigen::MatrixXd levels_of(const TagOnGrid& tag, Eigen::Index columns) {
+  const auto count = static_cast<Eigen::Index>(tag.antennas.size());
+  Eigen::MatrixXd levels = Eigen::MatrixXd::Zero(count, columns);
+  levels.col(0).setOnes();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    levels(i, 1 + static_cast<Eigen::Index>(tag.antennas[static_cast<std::size_t>(i)])) = 1.0;
+  }
+  return levels;
+}
+
+Eigen::ArrayXd log_strength(const TagOnGrid& tag, const StrengthLaw& law,
+                            const StrengthPrior& prior, double reach) {
+  const Eigen::Index count = tag.rssi_dbm.size();
+  const Eigen::Index slope = law.mean.size() - 1;
+  const Eigen::MatrixXd levels = levels_of(tag, slope);
+  // Given the slope, the covariance is the same in all cells; that of the slope adds u uᵀ.
+  const double variance = std::max(law.covariance(slope, slope), 1e-12);
+  const Eigen::VectorXd with_slope = levels * law.covariance.col(slope).head(slope);
+  Eigen::MatrixXd given_slope =
+      levels * law.covariance.topLeftCorner(slope, slope) * levels.transpose() -
+      with_slope * with_slope.transpose() / variance;
+  given_slope.array() += prior.tag_sigma_db * prior.tag_sigma_db;
+  given_slope.diagonal().array() += law.fading_db * law.fading_db;
+  const Eigen::LLT<Eigen::MatrixXd> root(given_slope);
+  const Eigen::MatrixXd whiten = root.matrixL().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::VectorXd over_level = tag.rssi_dbm - levels * law.mean.head(slope);
+  const Eigen::MatrixXd misfit =
+      whiten * ((law.mean[slope] * tag.log_distance - tag.gain_db).colwise() + over_level);
+  const Eigen::MatrixXd u = whiten * ((std::sqrt(variance) * tag.log_distance).colwise() -
+                                      with_slope / std::sqrt(variance));
+  const Eigen::ArrayXd more = 1.0 + u.colwise().squaredNorm().transpose().array();
+  const Eigen::ArrayXd common = misfit.cwiseProduct(u).colwise().sum().transpose().array();
+  Eigen::ArrayXd squares =
+      misfit.colwise().squaredNorm().transpose().array() - common.square() / more;
+  if (reach > 0.0) {
+    const Eigen::MatrixXd changes =
+        whiten.cwiseAbs() * changes_within(tag, law.mean[slope], reach, prior);
+    const Eigen::ArrayXd most = changes.colwise().norm().transpose().array();
+    squares = (squares.max(0.0).sqrt() - most).max(0.0).square();
+  }
+  const double log_det = 2.0 * root.matrixLLT().diagonal().array().log().sum();
+  return -0.5 * (squares + more.log() + log_det + static_cast<double>(count) * std::log(kTwoPi));
+}
+
+TagOnGrid refined(const TagOnGrid& tag, const StrengthLaw& law, const StrengthPrior& prior) {
+  TagOnGrid of = tag;
+  std::vector<PossiblePlaces> done;
+  std::size_t count = 0;
+  double best = -std::numeric_limits<double>::infinity();
+  const double slope = law.mean[law.mean.size() - 1];
+  while (!of.places.cells.empty()) {
+    const Eigen::ArrayXd logs = log_strength(of, law, prior, kCorner);
+    const Eigen::MatrixXd changes = changes_within(of, slope, kCorner, prior);
+    best = std::max(best, log_strength(of, law, prior).maxCoeff());
+    std::vector<Eigen::Index> fine;
+    std::vector<Eigen::Index> coarse;
+    const bool is_last = count + of.places.cells.size() > kMostCells;
+    for (Eigen::Index i = 0; i < logs.size(); ++i) {
+      if (logs[i] < best - kLost) continue;
+      // Within ± x a value scatters by x/√3 at most, so half a fading adds at most 8 % of variance.
+      const bool is_fine = changes.col(i).maxCoeff() < 0.5 * law.fading_db || is_last ||
+                           of.places.size_m[i] < kSmallest;
+      (is_fine ? fine : coarse).push_back(i);
+    }
+    count += fine.size();
+    done.push_back(some_of(of.places, fine, false));
+    put_on(some_of(of.places, coarse, true), prior, of);
+  }
+  put_on(joined(done), prior, of);
+  return of;
+}
+
+}  // namespace tagfield
