@@ -13,11 +13,14 @@ namespace {
 
 constexpr double kAnyLevel = 60.0;   ///< Prior standard deviation of the level [dB].
 constexpr double kUsualLevel = -45;  ///< [dBm at 1 m]
-constexpr double kWorth = 1.0;       ///< Weight of the fading's prior, in RSSI values.
+constexpr double kWorth = 4.0;       ///< Weight of the fading's prior, in RSSI values.
 /// Where RSSI follows the law exactly, this keeps covariances regular [dB]; below a reader's steps.
 constexpr double kLeastFading = 0.01;
 constexpr int kLawRounds = 100;    ///< At most,
-constexpr double kSettled = 0.02;  ///< or until ln of likelihood and fading change by less.
+constexpr double kSettled = 0.02;  ///< or until ln of the likelihood changes by less,
+constexpr double kSteady = 0.002;  ///< and the fading by less than this part. The last rounds of
+                                   ///< an exact law get some tenths nearer each, so that it is
+                                   ///< then known to a few hundredths.
 
 /// A tag's contribution to the law: its normal equations, its share of the fading, and the
 /// probabilities that it is in each of the areas.
@@ -218,7 +221,7 @@ LearnedLaw learn_law(const std::vector<TagOnGrid>& tags, std::size_t antennas,
       learned.areas_of_tag[i] = counts / counts.sum();
     }
     const double change = learned.of_all.fading_db / fading_before - 1.0;
-    if (std::abs(log_of_law - before_round) < kSettled && std::abs(change) < kSettled) break;
+    if (std::abs(log_of_law - before_round) < kSettled && std::abs(change) < kSteady) break;
   }
   // Slope and positions were fitted to n RSSI values: Schwarz's criterion takes ½ ln n for each of
   // the two.
