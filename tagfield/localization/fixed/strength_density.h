@@ -13,10 +13,18 @@ namespace tagfield {
 /// `columns`: level and deviations.
 Eigen::MatrixXd levels_of(const TagOnGrid& tag, Eigen::Index columns);
 
-/// ln p(RSSI | middle of the cell), all constants included. With `reach` over 0: an upper bound of
-/// it within this number of cell sizes of the middle.
+/// ln p(RSSI | cell), all constants included.
+struct CellStrengths {
+  Eigen::ArrayXd middle;  ///< At the middle of each cell.
+  Eigen::ArrayXd bound;   ///< Upper bound of it within each cell.
+};
+
+CellStrengths cell_strengths(const TagOnGrid& tag, const StrengthLaw& law,
+                             const StrengthPrior& prior);
+
+/// ln p(RSSI | middle of the cell) alone.
 Eigen::ArrayXd log_strength(const TagOnGrid& tag, const StrengthLaw& law,
-                            const StrengthPrior& prior, double reach = 0.0);
+                            const StrengthPrior& prior);
 
 /// The tag on cells so small that the law's RSSI hardly changes within them, compared with its
 /// fading. Cells that hold no share of the posterior are left out.

@@ -11,22 +11,23 @@ namespace {
 
 constexpr double kNearestCell = 0.1;  ///< Smaller distances are clamped to this [m].
 
-/// Maximum change of the lobe's gain [dB] towards the ends of a cross around the cell.
-double gain_change(const TagOnGrid& tag, Eigen::Index antenna, Eigen::Index cell, double reach_m,
-                   const Lobe& lobe) {
-  if (lobe.beam_width_deg == 0.0) return 0.0;
-  const auto i = static_cast<std::size_t>(antenna);
-  const Eigen::Vector3d way = tag.places.cells[static_cast<std::size_t>(cell)] - tag.p_WA[i];
+/// Maximum change of the lobe's gain [dB] towards the ends of a cross of this half width.
+double gain_change(const Lobe& lobe, const Eigen::Vector3d& boresight_W, const Eigen::Vector3d& way,
+                   double reach_m) {
+  if (lobe.beam_width_deg == 0.0 || reach_m == 0.0) return 0.0;
+  const double here = lobe_db(lobe, boresight_W, way);
   double most = 0.0;
-  for (const Eigen::Vector3d& step :
-       {Eigen::Vector3d(reach_m, 0.0, 0.0), Eigen::Vector3d(0.0, reach_m, 0.0)}) {
-    for (const Eigen::Vector3d& there :
-         {Eigen::Vector3d(way + step), Eigen::Vector3d(way - step)}) {
-      const double gain = lobe_db(lobe, tag.boresight_W[i], there);
-      most = std::max(most, std::abs(gain - tag.gain_db(antenna, cell)));
-    }
+  for (const double step : {-reach_m, reach_m}) {
+    const double along_x = lobe_db(lobe, boresight_W, way + step * Eigen::Vector3d::UnitX());
+    const double along_y = lobe_db(lobe, boresight_W, way + step * Eigen::Vector3d::UnitY());
+    most = std::max({most, std::abs(along_x - here), std::abs(along_y - here)});
   }
   return most;
+}
+
+/// Maximum change of log₁₀ r within this distance: towards the antenna.
+double log_change(double distance, double reach_m) {
+  return std::log10(distance / std::max(distance - reach_m, kNearestCell));
 }
 
 }  // namespace
@@ -68,32 +69,22 @@ void put_on(PossiblePlaces places, const Lobe& lobe, TagOnGrid& tag) {
   tag.places = std::move(places);
   const auto count = static_cast<Eigen::Index>(tag.antennas.size());
   const auto cells = static_cast<Eigen::Index>(tag.places.cells.size());
-  tag.log_distance.resize(count, cells);
-  tag.gain_db.resize(count, cells);
+  for (Eigen::MatrixXd* of :
+       {&tag.log_distance, &tag.gain_db, &tag.log_change, &tag.gain_change_db}) {
+    of->resize(count, cells);
+  }
   for (Eigen::Index j = 0; j < cells; ++j) {
+    const double corner = std::sqrt(0.5) * tag.places.size_m[j];
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto antenna = static_cast<std::size_t>(i);
       const Eigen::Vector3d way = tag.places.cells[static_cast<std::size_t>(j)] - tag.p_WA[antenna];
-      tag.log_distance(i, j) = std::log10(std::max(way.norm(), kNearestCell));
+      const double distance = std::max(way.norm(), kNearestCell);
+      tag.log_distance(i, j) = std::log10(distance);
       tag.gain_db(i, j) = lobe_db(lobe, tag.boresight_W[antenna], way);
+      tag.log_change(i, j) = log_change(distance, corner);
+      tag.gain_change_db(i, j) = gain_change(lobe, tag.boresight_W[antenna], way, corner);
     }
   }
-}
-
-Eigen::MatrixXd changes_within(const TagOnGrid& tag, double slope_db, double reach,
-                               const Lobe& lobe) {
-  Eigen::MatrixXd changes(tag.log_distance.rows(), tag.log_distance.cols());
-  for (Eigen::Index j = 0; j < changes.cols(); ++j) {
-    const double reach_m = reach * tag.places.size_m[j];
-    for (Eigen::Index i = 0; i < changes.rows(); ++i) {
-      const double distance = std::pow(10.0, tag.log_distance(i, j));
-      // The logarithm changes most towards the antenna.
-      const double nearest = std::max(distance - reach_m, kNearestCell);
-      changes(i, j) = std::abs(slope_db) * std::log10(distance / nearest) +
-                      gain_change(tag, i, j, reach_m, lobe);
-    }
-  }
-  return changes;
 }
 
 }  // namespace tagfield

@@ -38,6 +38,8 @@ struct TagOnGrid {
   Eigen::VectorXd rssi_dbm;                  ///< with one RSSI each.
   /// Per antenna (row) and cell: logarithm of the distance, and gain of the lobe [dB].
   Eigen::MatrixXd log_distance, gain_db;
+  /// By how much these change at most from the middle of the cell to its corners.
+  Eigen::MatrixXd log_change, gain_change_db;
 };
 
 /// `names`: all antennas, in the order of their indices.
@@ -46,10 +48,5 @@ TagOnGrid on_grid(const std::vector<std::string>& names, const std::vector<Fixed
 
 /// Replaces the places of a tag.
 void put_on(PossiblePlaces places, const Lobe& lobe, TagOnGrid& tag);
-
-/// Per antenna and cell: maximum change of slope log₁₀ r less the gain [dB] within `reach` cell
-/// sizes of the middle of the cell.
-Eigen::MatrixXd changes_within(const TagOnGrid& tag, double slope_db, double reach,
-                               const Lobe& lobe);
 
 }  // namespace tagfield

@@ -18,9 +18,9 @@ constexpr double kWorth = 4.0;       ///< Weight of the fading's prior, in RSSI 
 constexpr double kLeastFading = 0.01;
 constexpr int kLawRounds = 100;    ///< At most,
 constexpr double kSettled = 0.02;  ///< or until ln of the likelihood changes by less,
-constexpr double kSteady = 0.002;  ///< and the fading by less than this part. The last rounds of
-                                   ///< an exact law get some tenths nearer each, so that it is
-                                   ///< then known to a few hundredths.
+/// and the fading by less than this part. Of an exact law it falls by a tenth each round, so that
+/// it is then known to a tenth.
+constexpr double kSteady = 0.01;
 
 /// A tag's contribution to the law: its normal equations, its share of the fading, and the
 /// probabilities that it is in each of the areas.

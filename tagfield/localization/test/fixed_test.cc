@@ -196,6 +196,57 @@ TEST(Fixed, LearnsALawWithoutNoise) {
   EXPECT_LT(tally.mean(), 0.3);
 }
 
+/// Rooms whose RSSI follows its law almost exactly, as stated: positions are then known to
+/// centimetres, which is far less than the cells of the first grid.
+TEST(Fixed, ALawThatHoldsExactlyIsFoundWithoutABox) {
+  FixedOptions options;
+  options.fading_db = 0.2;
+  options.antenna_sigma_db = options.tag_sigma_db = 0.1;
+  options.slope_sigma_db = 1.0;
+  Rng rng(13);
+  for (int i = 0; i < 6; ++i) {
+    Room made = room(6, {0.1, 0.2, 40.0, 0.1}, rng);
+    made.problem.area.box.reset();
+    made.problem.has_phases = false;
+    Diagnostics diagnostics;
+    const Tally tally = tally_of(made, located(made, diagnostics, options));
+    ASSERT_EQ(tally.errors.size(), 6U) << i;
+    EXPECT_LT(*std::max_element(tally.errors.begin(), tally.errors.end()), 0.5) << i;
+  }
+}
+
+/// Where nothing says that tags can be far outside the antennas, a box of 18 m around the room
+/// tells as much as none, and neither pulls tags out of it.
+TEST(Fixed, AGenerousBoxIsAsGoodAsNone) {
+  Rng rng(14);
+  Tally with;
+  Tally without;
+  for (int i = 0; i < 4; ++i) {
+    Room made = room(20, {}, rng);
+    made.problem.has_phases = false;
+    Diagnostics diagnostics;
+    made.problem.area.box = Eigen::AlignedBox2d(Eigen::Vector2d(-kRoom, -kRoom),
+                                                Eigen::Vector2d(2.0 * kRoom, 2.0 * kRoom));
+    for (const TagEstimate& estimate : located(made, diagnostics).estimates) {
+      with.add(estimate, made.truth.at(estimate.tag));
+    }
+    made.problem.area.box.reset();
+    for (const TagEstimate& estimate : located(made, diagnostics).estimates) {
+      without.add(estimate, made.truth.at(estimate.tag));
+    }
+  }
+  with.finish();
+  without.finish();
+  EXPECT_GT(with.errors.size(), 60U);
+  EXPECT_GT(without.errors.size(), 60U);
+  EXPECT_NEAR(with.mean() / without.mean(), 1.0, 0.2);
+  EXPECT_LT(without.mean(), 2.0);
+  for (const Tally& tally : {with, without}) {
+    EXPECT_GT(calibration_of(tally), 0.75);
+    EXPECT_LT(calibration_of(tally), 1.25);
+  }
+}
+
 TEST(Fixed, StrengthsThatSayNothingLocateNothing) {
   Rng rng(6);
   for (int i = 0; i < 12; ++i) {

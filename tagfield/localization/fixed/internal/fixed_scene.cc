@@ -25,8 +25,8 @@ double furthest(const std::vector<FixedReads>& reads, const Eigen::Vector3d& pla
   return most;
 }
 
-/// What is near all antennas, up to their range from the bounding box of them, up to half of it, and
-/// so on, as far as tags can be there.
+/// What is near all antennas, up to their range from the bounding box of them, up to half of it,
+/// and so on, as far as tags can be there.
 std::vector<Eigen::AlignedBox2d> nested_areas(const LocalizationProblem& problem,
                                               double max_range_m) {
   Eigen::AlignedBox2d box;

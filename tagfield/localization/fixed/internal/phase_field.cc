@@ -111,13 +111,13 @@ LogDensity density_of(const FixedScene& scene, std::size_t number, double trust,
   return [&scene, &tag, &law, &areas, &options, ranges = ranges_of(scene, tag, trust)](
              const std::vector<Eigen::Vector3d>& places, double reach_m) {
     const auto count = static_cast<Eigen::Index>(places.size());
-    // The prior has no unit: one that is constant does not change anything.
     PossiblePlaces cells{places, Eigen::ArrayXd::Ones(count),
                          densities_in(scene.areas, tag.areas_m2, places)};
-    Eigen::ArrayXd logs = log_prior(cells, areas);
-    if (reach_m > 0.0) cells.size_m *= reach_m;
+    Eigen::ArrayXd logs = log_prior(cells, areas);       // Per square metre.
+    cells.size_m.setConstant(std::sqrt(2.0) * reach_m);  // With corners in reach.
     const TagOnGrid there = on_grid(scene.antennas, tag.reads, std::move(cells), options);
-    logs += log_strength(there, law, options, reach_m > 0.0 ? 1.0 : 0.0);
+    logs += reach_m > 0.0 ? cell_strengths(there, law, options).bound
+                          : log_strength(there, law, options);
     for (std::size_t a = 0; a < ranges.size(); ++a) {
       if (ranges[a].log.size() == 0) continue;
       for (std::size_t i = 0; i < places.size(); ++i) {
