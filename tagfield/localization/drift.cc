@@ -48,7 +48,7 @@ void add_drift(const LocalizationProblem& problem, LocalizationResult& result) {
     if (drift == nullptr) return Eigen::Matrix2d(Eigen::Matrix2d::Zero());
     return shift_at(drift->origin_W, drift->since_start, p_WT);
   };
-  add_shifts(problem, of_drift, result);
+  add_shifts(problem, "the drift of the wheels, which joint estimates,", of_drift, result);
 }
 
 }  // namespace tagfield

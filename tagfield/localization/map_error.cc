@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/map_error.h"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "tagfield/localization/judgement.h"
 
 namespace tagfield {
@@ -13,7 +17,7 @@ Eigen::Matrix2d shift_at(const Eigen::Vector2d& origin, const Eigen::Matrix3d& c
   return J * covariance * J.transpose();
 }
 
-void add_shifts(const LocalizationProblem& problem,
+void add_shifts(const LocalizationProblem& problem, const std::string& cause,
                 const std::function<Eigen::Matrix2d(const std::string& tag,
                                                     const Eigen::Vector2d& p_WT)>& shift_of,
                 LocalizationResult& result) {
@@ -25,7 +29,12 @@ void add_shifts(const LocalizationProblem& problem,
     for (Candidate& candidate : estimate.candidates) {
       add_error(shift_of(estimate.tag, candidate.p_WT.head<2>()), candidate);
     }
-    if (was_within && estimate.verdict == Verdict::kLocated) judge(problem.limits, estimate);
+    const double expected_m = estimate.candidates.front().expected_error_m;
+    const double limit_m = problem.limits.max_expected_error_m;
+    if (!was_within || estimate.verdict != Verdict::kLocated || expected_m <= limit_m) continue;
+    estimate = not_located(std::move(estimate),
+                           fmt::format("{} leaves it uncertain by {:.2f} m, limit {:.2f} m", cause,
+                                       expected_m, limit_m));
   }
 }
 
@@ -36,7 +45,7 @@ void add_map_error(const LocalizationProblem& problem, LocalizationResult& resul
   const auto of_map = [&](const std::string&, const Eigen::Vector2d& p_WT) {
     return shift_at(*error.origin_W, error.covariance, p_WT);
   };
-  add_shifts(problem, of_map, result);
+  add_shifts(problem, "the error of the map", of_map, result);
 }
 
 }  // namespace tagfield

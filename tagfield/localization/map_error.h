@@ -18,9 +18,9 @@ Eigen::Matrix2d shift_at(const Eigen::Vector2d& origin, const Eigen::Matrix3d& c
                          const Eigen::Vector2d& p);
 
 /// Adds what `shift_of` gives to the covariance of each position, and its trace to the square of
-/// the expected error. Tags whose expected error thereby exceeds the limit are no longer located.
-/// Reference tags stay as they are.
-void add_shifts(const LocalizationProblem& problem,
+/// the expected error. Tags whose expected error thereby exceeds the limit are no longer located,
+/// with `cause` as the reason. Reference tags stay as they are.
+void add_shifts(const LocalizationProblem& problem, const std::string& cause,
                 const std::function<Eigen::Matrix2d(const std::string& tag,
                                                     const Eigen::Vector2d& p_WT)>& shift_of,
                 LocalizationResult& result);

@@ -66,6 +66,10 @@ TEST(Drift, APositionThatIsNoLongerSureEnoughIsNotLocated) {
   add_drift(problem, far);
   EXPECT_EQ(near.estimates.front().verdict, Verdict::kLocated);
   EXPECT_EQ(far.estimates.front().verdict, Verdict::kNotLocated);
+  EXPECT_EQ(
+      far.estimates.front().reason,
+      "cannot localize: the drift of the wheels, which joint estimates, leaves it uncertain by "
+      "0.20 m, limit 0.15 m");
 }
 
 TEST(Drift, TagsReadByAntennasAtRestAndReferenceTagsHaveNone) {
