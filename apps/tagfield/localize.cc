@@ -83,7 +83,7 @@ LocalizationOptions options_of(const LocalizeArguments& arguments,
   take_known(arguments, reads, options.known);
   options.known.pose_error = pose_error_of(arguments, scenario_in(loaded), poses);
   options.known.map_error = map_error_of(arguments, poses);
-  if (poses != "given") options.known.drift = {};
+  if (poses != "given" && poses != "odometry") options.known.drift = {};
   options.known.world_sigma_m = world_sigma_of(arguments, options.method, options.known);
   return options;
 }
@@ -349,7 +349,12 @@ bool tell_orientation(const std::vector<AntennaPose>& poses) {
 }
 
 void warn_of_what_is_missing(const LocalizeArguments& arguments, const LoadedRecording& recording,
-                             Diagnostics& diagnostics) {
+                             const KnownBeforehand& known, Diagnostics& diagnostics) {
+  if (recording.poses.name == "odometry" && !known.drift && !known.pose_error) {
+    diagnostics.warn(
+        "the poses are wheel odometry: what they are off by as a whole, since the start, is not in "
+        "the expected errors");
+  }
   if (!arguments.circular.empty() && !tell_orientation(recording.poses.poses)) {
     diagnostics.warn(
         "--circular has no effect: the poses don't state the antennas' orientation (all are "
@@ -394,7 +399,7 @@ int localize(const LocalizeArguments& asked) {
   warn_of_unread_tags(asked, arguments.tables, recording.overview, diagnostics);
   warn_of_unused_options(arguments, find_method(options.methods, options.method),
                          recording.poses.name, diagnostics);
-  warn_of_what_is_missing(arguments, recording, diagnostics);
+  warn_of_what_is_missing(arguments, recording, options.known, diagnostics);
   const std::optional<Calibration> calibration =
       arguments.calibration.empty() ? std::nullopt
                                     : std::optional(read_calibration(arguments.calibration));
