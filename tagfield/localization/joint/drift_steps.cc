@@ -48,35 +48,37 @@ Eigen::Matrix3d precision_of(Eigen::Matrix3d covariance) {
   return 0.5 * (inverse + inverse.transpose());
 }
 
+/// Appends the steps of one body's knots.
+void add_steps(const LocalizationProblem& problem, const PoseKnots::Chain& chain,
+               std::vector<KnotStep>& steps) {
+  const std::vector<Drift>& drift = problem.drift.at(chain.reference);
+  const Trajectory& track = problem.tracks.at(chain.reference).X_WA;
+  KnotStep step;
+  step.is_first = true;
+  double last_s = to_seconds(drift.front().stamp);
+  Eigen::Vector2d last = Eigen::Vector2d::Zero();
+  for (const PoseKnots::Piece& piece : chain.pieces) {
+    for (Eigen::Index k = 0; k < piece.count; ++k) {
+      const double time_s = piece.begin_s + static_cast<double>(k) * piece.spacing_s;
+      const Eigen::Vector2d place = held_position_at(track, time_from_seconds(time_s)).head<2>();
+      if (!step.is_first) step.driven = place - last;
+      step.precision = precision_of(gained(drift, last_s, time_s, place));
+      steps.push_back(step);
+      step.is_first = false;
+      last_s = time_s;
+      last = place;
+    }
+  }
+}
+
 }  // namespace
 
 void take_drift(const LocalizationProblem& problem, PoseKnots& knots) {
   knots.size = 3;
-  // In pauses the error goes on linearly.
-  knots.time_constant_s = 1e6;
+  knots.time_constant_s = 1e6;  // In pauses the error goes on linearly.
   for (Eigen::Matrix3d& scale : knots.scale) scale = kUnit * Eigen::Matrix3d::Identity();
-  for (const PoseKnots::Chain& chain : knots.chains) {
-    const std::vector<Drift>& drift = problem.drift.at(chain.reference);
-    const Trajectory& track = problem.tracks.at(chain.reference).X_WA;
-    bool is_first = true;
-    double last_s = to_seconds(drift.front().stamp);
-    Eigen::Vector2d last = Eigen::Vector2d::Zero();
-    for (const PoseKnots::Piece& piece : chain.pieces) {
-      for (Eigen::Index k = 0; k < piece.count; ++k) {
-        const double time_s = piece.begin_s + static_cast<double>(k) * piece.spacing_s;
-        const Eigen::Vector2d place =
-            held_pose_at(track, time_from_seconds(time_s)).translation.head<2>();
-        KnotStep step;
-        step.is_first = is_first;
-        if (!is_first) step.driven = place - last;
-        step.precision = precision_of(gained(drift, last_s, time_s, place));
-        knots.steps.push_back(step);
-        is_first = false;
-        last_s = time_s;
-        last = place;
-      }
-    }
-  }
+  knots.steps.reserve(knots.scale.size());
+  for (const PoseKnots::Chain& chain : knots.chains) add_steps(problem, chain, knots.steps);
 }
 
 }  // namespace tagfield

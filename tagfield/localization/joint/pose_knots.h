@@ -77,10 +77,6 @@ PoseKnots make_knots(const LocalizationProblem& problem, const PoseErrorModel* m
 /// The knots with standard deviations multiplied by `factor`.
 PoseKnots scaled(PoseKnots knots, double factor);
 
-/// Interpolation in a chain at a given time, between knot `at` and the next: the error is the sum
-/// of the errors at the two knots, weighted by `before` and `after`. Linear, except in a pause,
-/// where it is the mean of the process given both knots. Constant before the first knot and after
-/// the last.
 /// The true lever, R(−yaw error) times the believed one [m].
 inline Eigen::Vector2d true_lever(const Eigen::Vector2d& believed, double yaw_error_rad) {
   return Eigen::Rotation2Dd(-yaw_error_rad) * believed;
@@ -93,6 +89,10 @@ inline Eigen::Vector2d displacement_of(const Eigen::Vector3d& error, const Eigen
   return error.head<2>() + lever - true_lever(lever, error.z());
 }
 
+/// Interpolation in a chain at a given time, between knot `at` and the next: the error is the sum
+/// of the errors at the two knots, weighted by `before` and `after`. Linear, except in a pause,
+/// where it is the mean of the process given both knots. Constant before the first knot and after
+/// the last.
 struct KnotPlace {
   Eigen::Index at = 0;
   double before = 1.0;
