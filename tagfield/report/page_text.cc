@@ -230,7 +230,7 @@ std::string run_facts(const Summary& summary) {
   html += fact("Method", is_interrupted ? "none" : spoken_method(summary.method));
   html += fact(is_none ? "Why" : "Chosen by " + summary.method_asked, summary.method_why);
   html += fact("Antenna poses", spoken_pose(summary.pose));
-  if (summary.pose_error && summary.pose != "slam") {  // For "slam" no error is stated.
+  if (summary.pose_error && summary.pose == "noisy") {  // Of others no such error is stated.
     html += fact("Stated pose error",
                  fmt::format("σ {} per axis, σ {:.2f}° in heading, time constant {:.3g} s",
                              spoken_length(summary.pose_error->sigma_m),
