@@ -148,8 +148,8 @@ struct Drift {
   Time stamp;
   Eigen::Vector2d origin_W{0.0, 0.0};                     ///< Believed position of the body [m].
   Eigen::Matrix3d since_start = Eigen::Matrix3d::Zero();  ///< As accumulated.
-  Eigen::Matrix3d since_last =
-      Eigen::Matrix3d::Zero();  ///< Gained since the previous one, independent.
+  /// Gained since the previous one, independent.
+  Eigen::Matrix3d since_last = Eigen::Matrix3d::Zero();
 };
 
 /// The drift at the poses of an antenna's believed trajectory, in their order; empty for an antenna
@@ -228,8 +228,8 @@ struct LocalizationProblem {
   std::set<std::string> offset_known;        ///< Antennas whose offset is known on all channels.
   std::optional<PoseErrorModel> pose_error;  ///< nullopt if unknown.
   std::optional<MapError> map_error;         ///< nullopt if unknown; with an origin.
-  std::map<std::string, std::vector<Drift>>
-      drift;                  ///< By antenna, sorted by time; of those that drift.
+  /// By antenna, sorted by time; of those that drift.
+  std::map<std::string, std::vector<Drift>> drift;
   bool has_phases = true;     ///< False if they are identical: the reads have none.
   bool pi_ambiguity = false;  ///< Phases and carriers were doubled (pi_ambiguity.h).
   TagArea area;               ///< Where tags can be.

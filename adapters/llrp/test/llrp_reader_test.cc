@@ -105,6 +105,12 @@ class LlrpReaderTest : public testing::Test {
     return static_cast<Status>(ByteReader(status.content).u16());
   }
   Status ask(std::uint16_t type, std::uint32_t id) { return ask(type, u32_bytes(id)); }
+  /// Adds the ROSpec 1, enables and starts it.
+  void start(const Bytes& spec) {
+    EXPECT_EQ(ask(20, spec), Status::kSuccess);
+    EXPECT_EQ(ask(24, 1), Status::kSuccess);
+    EXPECT_EQ(ask(22, 1), Status::kSuccess);
+  }
 
   /// The other reader reads all the time.
   void start_other();
@@ -346,9 +352,7 @@ TEST_F(LlrpReaderTest, ItsReportHasAllReadsThoughAnotherReaderReadsToo) {
     line_->received.clear();
     Asked asked;
     asked.duration_ms = 100;
-    EXPECT_EQ(ask(20, ro_spec(asked)), Status::kSuccess);
-    EXPECT_EQ(ask(24, 1), Status::kSuccess);
-    EXPECT_EQ(ask(22, 1), Status::kSuccess);
+    start(ro_spec(asked));
     const Time begin = world_.now();
     run_for(milliseconds(300));
     EXPECT_EQ(ask(21, 1), Status::kSuccess);
@@ -392,9 +396,7 @@ class SlowAntennas : public LlrpReaderTest {
     run_for(milliseconds(90));
     Asked asked;
     asked.ai_stop = stop;
-    EXPECT_EQ(ask(20, ro_spec(asked)), Status::kSuccess);
-    EXPECT_EQ(ask(24, 1), Status::kSuccess);
-    EXPECT_EQ(ask(22, 1), Status::kSuccess);
+    start(ro_spec(asked));
     begin_ = world_.now();
     run_for(milliseconds(3000));
     for (const Message& message : line_->received) {
@@ -442,9 +444,7 @@ TEST_F(LlrpReaderTest, GetReportHasWhatWasReadUntilThen) {
   start_other();
   Asked asked;
   asked.trigger = 0;
-  EXPECT_EQ(ask(20, ro_spec(asked)), Status::kSuccess);
-  EXPECT_EQ(ask(24, 1), Status::kSuccess);
-  EXPECT_EQ(ask(22, 1), Status::kSuccess);
+  start(ro_spec(asked));
   const Time begin = world_.now();
   run_for(milliseconds(120));
   const Time end = world_.now();
@@ -490,9 +490,7 @@ class AccessReports : public LlrpReaderTest {
   AccessReports() {
     Asked asked;
     asked.trigger = 0;
-    EXPECT_EQ(ask(20, ro_spec(asked)), Status::kSuccess);
-    EXPECT_EQ(ask(24, 1), Status::kSuccess);
-    EXPECT_EQ(ask(22, 1), Status::kSuccess);
+    start(ro_spec(asked));
   }
   void access(const AskedAccess& asked) {
     EXPECT_EQ(ask(40, access_spec(asked)), Status::kSuccess);

@@ -88,7 +88,7 @@ JointCovariance covariance_of(const JointSystem& system, int threads);
 double log_determinant_of(const JointSystem& system, int threads);
 
 /// −2 ln of the density of the data given the pose-error model, up to a constant, for model
-/// comparison. `cost` is cost_of() at the minimum.
+/// comparison. `cost` is cost_of() at the minimum. Not for dead reckoning, whose model is known.
 double evidence(const JointSystem& system, double cost, double log_determinant);
 
 /// Whether eliminating the chain of knots first and then factorizing the tags' matrix is less work
