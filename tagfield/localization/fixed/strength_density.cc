@@ -18,39 +18,22 @@ constexpr double kLost = 12.0;             ///< Cells this far below the best [l
 constexpr double kSmallest = 1e-3;         ///< [m]
 constexpr std::size_t kMostCells = 20000;  ///< With more cells, none is split further.
 
-/// Cells by their numbers, whole or split into four.
-PossiblePlaces some_of(const PossiblePlaces& places, const std::vector<Eigen::Index>& numbers,
-                       bool split) {
-  const Eigen::Index parts = split ? 4 : 1;
-  const Eigen::Index count = parts * static_cast<Eigen::Index>(numbers.size());
-  PossiblePlaces some{{}, Eigen::ArrayXd(count), Eigen::ArrayXXd(count, places.density.cols())};
+/// Quarters of the cells of these numbers.
+PossiblePlaces split(const PossiblePlaces& places, const std::vector<Eigen::Index>& numbers) {
+  const Eigen::Index count = 4 * static_cast<Eigen::Index>(numbers.size());
+  PossiblePlaces quarters{{}, Eigen::ArrayXd(count), Eigen::ArrayXXd(count, places.density.cols())};
+  quarters.cells.reserve(static_cast<std::size_t>(count));
   for (const Eigen::Index number : numbers) {
     const double size = places.size_m[number];
-    for (Eigen::Index part = 0; part < parts; ++part) {
-      const auto row = static_cast<Eigen::Index>(some.cells.size());
+    for (Eigen::Index part = 0; part < 4; ++part) {
+      const auto row = static_cast<Eigen::Index>(quarters.cells.size());
       const Eigen::Vector3d quarter(part % 2 == 0 ? -0.25 : 0.25, part < 2 ? -0.25 : 0.25, 0.0);
-      const double step = split ? size : 0.0;
-      some.cells.emplace_back(places.cells[static_cast<std::size_t>(number)] + step * quarter);
-      some.size_m[row] = split ? 0.5 * size : size;
-      some.density.row(row) = places.density.row(number);
+      quarters.cells.emplace_back(places.cells[static_cast<std::size_t>(number)] + size * quarter);
+      quarters.size_m[row] = 0.5 * size;
+      quarters.density.row(row) = places.density.row(number);
     }
   }
-  return some;
-}
-
-PossiblePlaces joined(const std::vector<PossiblePlaces>& all) {
-  PossiblePlaces sum;
-  Eigen::Index count = 0;
-  for (const PossiblePlaces& some : all) count += some.size_m.size();
-  sum.size_m.resize(count);
-  sum.density.resize(count, all.front().density.cols());
-  for (const PossiblePlaces& some : all) {
-    const auto row = static_cast<Eigen::Index>(sum.cells.size());
-    sum.cells.insert(sum.cells.end(), some.cells.begin(), some.cells.end());
-    sum.size_m.segment(row, some.size_m.size()) = some.size_m;
-    sum.density.middleRows(row, some.size_m.size()) = some.density;
-  }
-  return sum;
+  return quarters;
 }
 
 }  // namespace
@@ -127,7 +110,7 @@ CellStrengths cell_strengths(const TagOnGrid& tag, const StrengthLaw& law,
 
 TagOnGrid refined(const TagOnGrid& tag, const StrengthLaw& law, const StrengthPrior& prior) {
   TagOnGrid of = tag;
-  std::vector<PossiblePlaces> done;
+  std::vector<TagOnGrid> done;
   std::size_t count = 0;
   double best = -std::numeric_limits<double>::infinity();
   while (!of.places.cells.empty()) {
@@ -145,11 +128,10 @@ TagOnGrid refined(const TagOnGrid& tag, const StrengthLaw& law, const StrengthPr
       (is_fine ? fine : coarse).push_back(i);
     }
     count += fine.size();
-    done.push_back(some_of(of.places, fine, false));
-    put_on(some_of(of.places, coarse, true), prior, of);
+    done.push_back(with_cells(of, fine));
+    put_on(split(of.places, coarse), prior, of);
   }
-  put_on(joined(done), prior, of);
-  return of;
+  return joined(done);
 }
 
 }  // namespace tagfield

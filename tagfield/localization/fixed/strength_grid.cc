@@ -11,15 +11,14 @@ namespace {
 
 constexpr double kNearestCell = 0.1;  ///< Smaller distances are clamped to this [m].
 
-/// Maximum change of the lobe's gain [dB] towards the ends of a cross of this half width.
-double gain_change(const Lobe& lobe, const Eigen::Vector3d& boresight_W, const Eigen::Vector3d& way,
-                   double reach_m) {
-  if (lobe.beam_width_deg == 0.0 || reach_m == 0.0) return 0.0;
-  const double here = lobe_db(lobe, boresight_W, way);
+/// Maximum change of the lobe's gain [dB] from that `here` towards the ends of a cross of this half
+/// width.
+double gain_change(const AimedLobe& lobe, const Eigen::Vector3d& way, double here, double reach_m) {
+  if (lobe.exponent == 0.0 || reach_m == 0.0) return 0.0;
   double most = 0.0;
   for (const double step : {-reach_m, reach_m}) {
-    const double along_x = lobe_db(lobe, boresight_W, way + step * Eigen::Vector3d::UnitX());
-    const double along_y = lobe_db(lobe, boresight_W, way + step * Eigen::Vector3d::UnitY());
+    const double along_x = lobe_db(lobe, way + step * Eigen::Vector3d::UnitX());
+    const double along_y = lobe_db(lobe, way + step * Eigen::Vector3d::UnitY());
     most = std::max({most, std::abs(along_x - here), std::abs(along_y - here)});
   }
   return most;
@@ -73,18 +72,65 @@ void put_on(PossiblePlaces places, const Lobe& lobe, TagOnGrid& tag) {
        {&tag.log_distance, &tag.gain_db, &tag.log_change, &tag.gain_change_db}) {
     of->resize(count, cells);
   }
-  for (Eigen::Index j = 0; j < cells; ++j) {
-    const double corner = std::sqrt(0.5) * tag.places.size_m[j];
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const auto antenna = static_cast<std::size_t>(i);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto antenna = static_cast<std::size_t>(i);
+    const AimedLobe of = aimed(lobe, tag.boresight_W[antenna]);
+    for (Eigen::Index j = 0; j < cells; ++j) {
+      const double corner = std::sqrt(0.5) * tag.places.size_m[j];
       const Eigen::Vector3d way = tag.places.cells[static_cast<std::size_t>(j)] - tag.p_WA[antenna];
       const double distance = std::max(way.norm(), kNearestCell);
       tag.log_distance(i, j) = std::log10(distance);
-      tag.gain_db(i, j) = lobe_db(lobe, tag.boresight_W[antenna], way);
+      tag.gain_db(i, j) = lobe_db(of, way);
       tag.log_change(i, j) = log_change(distance, corner);
-      tag.gain_change_db(i, j) = gain_change(lobe, tag.boresight_W[antenna], way, corner);
+      tag.gain_change_db(i, j) = gain_change(of, way, tag.gain_db(i, j), corner);
     }
   }
+}
+
+TagOnGrid with_cells(const TagOnGrid& tag, const std::vector<Eigen::Index>& numbers) {
+  TagOnGrid some;
+  some.antennas = tag.antennas;
+  some.p_WA = tag.p_WA;
+  some.boresight_W = tag.boresight_W;
+  some.rssi_dbm = tag.rssi_dbm;
+  some.places.cells.reserve(numbers.size());
+  for (const Eigen::Index number : numbers) {
+    some.places.cells.push_back(tag.places.cells[static_cast<std::size_t>(number)]);
+  }
+  some.places.size_m = tag.places.size_m(numbers);
+  some.places.density = tag.places.density(numbers, Eigen::all);
+  some.log_distance = tag.log_distance(Eigen::all, numbers);
+  some.gain_db = tag.gain_db(Eigen::all, numbers);
+  some.log_change = tag.log_change(Eigen::all, numbers);
+  some.gain_change_db = tag.gain_change_db(Eigen::all, numbers);
+  return some;
+}
+
+TagOnGrid joined(const std::vector<TagOnGrid>& parts) {
+  Eigen::Index cells = 0;
+  for (const TagOnGrid& part : parts) cells += part.places.size_m.size();
+  TagOnGrid sum = with_cells(parts.front(), {});
+  sum.places.cells.reserve(static_cast<std::size_t>(cells));
+  sum.places.size_m.resize(cells);
+  sum.places.density.resize(cells, parts.front().places.density.cols());
+  const auto antennas = static_cast<Eigen::Index>(sum.antennas.size());
+  for (Eigen::MatrixXd* of :
+       {&sum.log_distance, &sum.gain_db, &sum.log_change, &sum.gain_change_db}) {
+    of->resize(antennas, cells);
+  }
+  for (const TagOnGrid& part : parts) {
+    const auto first = static_cast<Eigen::Index>(sum.places.cells.size());
+    const Eigen::Index count = part.places.size_m.size();
+    sum.places.cells.insert(sum.places.cells.end(), part.places.cells.begin(),
+                            part.places.cells.end());
+    sum.places.size_m.segment(first, count) = part.places.size_m;
+    sum.places.density.middleRows(first, count) = part.places.density;
+    sum.log_distance.middleCols(first, count) = part.log_distance;
+    sum.gain_db.middleCols(first, count) = part.gain_db;
+    sum.log_change.middleCols(first, count) = part.log_change;
+    sum.gain_change_db.middleCols(first, count) = part.gain_change_db;
+  }
+  return sum;
 }
 
 }  // namespace tagfield

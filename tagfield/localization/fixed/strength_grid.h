@@ -49,4 +49,10 @@ TagOnGrid on_grid(const std::vector<std::string>& names, const std::vector<Fixed
 /// Replaces the places of a tag.
 void put_on(PossiblePlaces places, const Lobe& lobe, TagOnGrid& tag);
 
+/// The tag with the cells of these numbers only.
+TagOnGrid with_cells(const TagOnGrid& tag, const std::vector<Eigen::Index>& numbers);
+
+/// One tag's parts, at least one, with all their cells in that order.
+TagOnGrid joined(const std::vector<TagOnGrid>& parts);
+
 }  // namespace tagfield

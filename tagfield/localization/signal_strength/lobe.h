@@ -16,8 +16,18 @@ struct Lobe {
   double front_to_back_db = 25.0;
 };
 
+/// The lobe of an antenna that looks in one direction, for many gains.
+struct AimedLobe {
+  Eigen::Vector3d boresight_W;  ///< Unit vector.
+  double exponent = 0.0;        ///< n of cosⁿ; 0 if the lobe is unknown.
+  double least_db = 0.0;        ///< Gain [dB] one way behind the antenna.
+};
+
+AimedLobe aimed(const Lobe& lobe, const Eigen::Vector3d& boresight_W);
+
 /// Round-trip gain relative to boresight [dB] in the direction `way_W` from the antenna; 0 if the
 /// lobe is unknown.
+double lobe_db(const AimedLobe& lobe, const Eigen::Vector3d& way_W);
 double lobe_db(const Lobe& lobe, const Eigen::Vector3d& boresight_W, const Eigen::Vector3d& way_W);
 
 /// Keys of options with a lobe.
