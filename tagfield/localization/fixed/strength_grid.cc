@@ -10,6 +10,7 @@ namespace tagfield {
 namespace {
 
 constexpr double kNearestCell = 0.1;  ///< Smaller distances are clamped to this [m].
+const double kLog10 = std::log(10.0);
 
 /// Maximum change of the lobe's gain [dB] from that `here` towards the ends of a cross of this half
 /// width.
@@ -22,11 +23,6 @@ double gain_change(const AimedLobe& lobe, const Eigen::Vector3d& way, double her
     most = std::max({most, std::abs(along_x - here), std::abs(along_y - here)});
   }
   return most;
-}
-
-/// Maximum change of log₁₀ r within this distance: towards the antenna.
-double log_change(double distance, double reach_m) {
-  return std::log10(distance / std::max(distance - reach_m, kNearestCell));
 }
 
 }  // namespace
@@ -68,21 +64,26 @@ void put_on(PossiblePlaces places, const Lobe& lobe, TagOnGrid& tag) {
   tag.places = std::move(places);
   const auto count = static_cast<Eigen::Index>(tag.antennas.size());
   const auto cells = static_cast<Eigen::Index>(tag.places.cells.size());
-  for (Eigen::MatrixXd* of :
-       {&tag.log_distance, &tag.gain_db, &tag.log_change, &tag.gain_change_db}) {
-    of->resize(count, cells);
-  }
+  tag.log_distance.resize(count, cells);
+  tag.gain_db.resize(count, cells);
+  tag.log_change.resize(count, cells);
+  tag.gain_change_db.resize(count, cells);
+  Eigen::Array3Xd ways(3, cells);
+  const Eigen::ArrayXd corners = std::sqrt(0.5) * tag.places.size_m;
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto antenna = static_cast<std::size_t>(i);
+    for (Eigen::Index j = 0; j < cells; ++j) {
+      ways.col(j) = tag.places.cells[static_cast<std::size_t>(j)] - tag.p_WA[antenna];
+    }
+    const Eigen::ArrayXd distance =
+        ways.square().colwise().sum().sqrt().max(kNearestCell).transpose();
+    const Eigen::ArrayXd nearest = (distance - corners).max(kNearestCell);
+    tag.log_distance.row(i) = (distance.log() / kLog10).transpose();
+    tag.log_change.row(i) = ((distance / nearest).log() / kLog10).transpose();
     const AimedLobe of = aimed(lobe, tag.boresight_W[antenna]);
     for (Eigen::Index j = 0; j < cells; ++j) {
-      const double corner = std::sqrt(0.5) * tag.places.size_m[j];
-      const Eigen::Vector3d way = tag.places.cells[static_cast<std::size_t>(j)] - tag.p_WA[antenna];
-      const double distance = std::max(way.norm(), kNearestCell);
-      tag.log_distance(i, j) = std::log10(distance);
-      tag.gain_db(i, j) = lobe_db(of, way);
-      tag.log_change(i, j) = log_change(distance, corner);
-      tag.gain_change_db(i, j) = gain_change(of, way, tag.gain_db(i, j), corner);
+      tag.gain_db(i, j) = lobe_db(of, ways.col(j));
+      tag.gain_change_db(i, j) = gain_change(of, ways.col(j), tag.gain_db(i, j), corners[j]);
     }
   }
 }
