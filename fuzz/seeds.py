@@ -4,7 +4,7 @@
 
     fuzz/seeds.py FOLDER
 
-FOLDER/DOOR/… are valid inputs of each fuzz target (fuzz/DOOR.cc).
+FOLDER/TARGET/… are valid inputs of each fuzz target (fuzz/TARGET.cc).
 """
 
 import io
@@ -329,14 +329,14 @@ def archive():
     yield "tar_out", b"\0" + out.getvalue()
 
 
-DOORS = {"llrp": llrp, "http": http, "scenario": scenario, "tables": tables, "epc": epc,
+TARGETS = {"llrp": llrp, "http": http, "scenario": scenario, "tables": tables, "epc": epc,
          "world": world, "map": a_map, "mcap": mcap, "settings": settings, "dataset": dataset,
          "recording": recording, "archive": archive}
 
 
 def write_all(folder):
-    for door, seeds in DOORS.items():
-        place = pathlib.Path(folder) / door
+    for target, seeds in TARGETS.items():
+        place = pathlib.Path(folder) / target
         place.mkdir(parents=True, exist_ok=True)
         for name, content in seeds():
             (place / name).write_bytes(content)
