@@ -11,10 +11,6 @@
 namespace tagfield::llrp {
 namespace {
 
-/// Reports kept for a disconnected client.
-constexpr std::size_t kMaxPending = 10'000;
-/// TagReportData per message.
-constexpr std::size_t kMaxReportBytes = 32'000;
 /// Levels of a client's buffer: it is told above the first, and may be told again once below the
 /// second.
 constexpr double kFullLevel = 0.8;
@@ -48,27 +44,6 @@ void write_status(Status status, const std::string& text, ByteWriter& writer) {
 
 void write_ok(ByteWriter& writer, const std::string& text = "") {
   write_status(Status::kSuccess, text, writer);
-}
-
-std::uint32_t id_in(const Message& message) {
-  ByteReader body(message.body);
-  const std::uint32_t id = body.u32();
-  body.require_end();
-  return id;
-}
-
-/// The message's only parameter, which must be of this type.
-Parameter only_parameter(const Message& message, std::uint16_t type) {
-  const std::vector<Parameter> all = parameters_of(ByteReader(message.body));
-  Parameter found = require(all, type);
-  require_known(all, {type});
-  return found;
-}
-
-template <class Entries>
-void require_room(const Entries& entries, std::size_t most, const char* what) {
-  if (entries.size() < most) return;
-  throw Fault(Status::kOverflowParameter, fmt::format("there are {} {} already", most, what));
 }
 
 }  // namespace
@@ -245,7 +220,7 @@ void LlrpReader::add_ro_spec(LiveWorld& world, const Message& message, ByteWrite
   if (ro_specs_.count(spec.id) > 0) {
     throw Fault(Status::kFieldError, fmt::format("there is a ROSpec {} already", spec.id));
   }
-  require_room(ro_specs_, kMaxRoSpecs, "ROSpecs");
+  require_room(ro_specs_.size(), kMaxRoSpecs, "ROSpecs");
   for (const AiSpec& ai : spec.specs) check_duty(world, ai);
   ro_specs_[spec.id].spec = spec;
   write_ok(out);
@@ -417,7 +392,7 @@ void LlrpReader::end(LiveWorld& world, std::uint32_t preempted_by) {
   if (running_->gathering.spec().trigger != 0) {
     report_gathered(*running_);
   } else {
-    keep_unasked(running_->gathering.take());
+    queue_.keep(running_->gathering.take());
   }
   running_.reset();
   ro_spec(id).state = State::kInactive;
@@ -479,13 +454,12 @@ void LlrpReader::tell_line_state() {
     });
     has_warned_of_buffer_ = true;
   }
-  dropped_ += line_->take_dropped();
-  if (dropped_ > 0 && !has_told_of_overflow_) {
+  const std::int64_t dropped = queue_.take_dropped() + line_->take_dropped();
+  if (dropped > 0 && !has_told_of_overflow_) {
     report_warnings({"a client is too slow and loses reports"});
     tell_event(kBufferEvents, [](ByteWriter& out) { out.parameter(251, [] {}); });
     has_told_of_overflow_ = true;
   }
-  dropped_ = 0;
   if (level < kRelaxedLevel && !is_holding_) has_warned_of_buffer_ = has_told_of_overflow_ = false;
 }
 
@@ -569,8 +543,9 @@ void LlrpReader::take(const TagRead& read) {
   if (running.seen.insert(read.tag).second) running.last_new = read.stamp;
   TagReport report = report_of(read, running, tag);
   // One AccessSpec per singulation.
-  AccessEntry* const access = access_for(report, tag);
-  if (access != nullptr) operate(*access, read, tag, report);
+  AccessEntry* const access = access_specs_.for_tag(report, tag);
+  if (access != nullptr) execute(*access, tag, report);
+  if (tag.is_killed()) killed_.push_back(read.tag);
   const bool is_for_access =
       access != nullptr && access->spec.report.value_or(configuration_.access_report) ==
                                AccessReportAt::kEndOfAccessSpec;
@@ -581,69 +556,17 @@ void LlrpReader::take(const TagRead& read) {
   } else {
     running.gathering.add(report);
   }
-  if (access != nullptr) end_if_done(*access);
+  if (access != nullptr) add_pending(access_specs_.end_if_done(*access));
   if (running.gathering.is_full()) report_gathered(running);
 }
 
-/// The AccessSpec for the tag that has been singulated, or null.
-LlrpReader::AccessEntry* LlrpReader::access_for(const TagReport& report, const MemoryBanks& tag) {
-  for (auto& [id, entry] : access_specs_) {
-    const AccessSpec& spec = entry.spec;
-    const bool is_for_it =
-        entry.is_enabled && (spec.antenna == 0 || spec.antenna == report.antenna) &&
-        (spec.ro_spec == 0 || spec.ro_spec == report.ro_spec) &&
-        std::all_of(spec.targets.begin(), spec.targets.end(),
-                    [&](const MemoryMask& target) { return is_meant(target, tag); });
-    if (is_for_it) return &entry;
-  }
-  return nullptr;
-}
-
-/// Executes the AccessSpec.
-void LlrpReader::operate(AccessEntry& entry, const TagRead& read, MemoryBanks& tag,
-                         TagReport& report) {
-  ByteWriter results;
-  for (const OpSpec& op : entry.spec.ops) tagfield::llrp::operate(op, tag, results);
-  report.access_spec = entry.spec.id;
-  report.op_results = results.written();
-  if (tag.is_killed()) killed_.push_back(read.tag);
-  ++entry.done;
-}
-
-/// Deletes the AccessSpec after the last of its operations. One without a number of operations ends
-/// with each execution, as far as its reports are concerned.
-void LlrpReader::end_if_done(AccessEntry& entry) {
-  const std::uint16_t operations = entry.spec.operations;
-  const bool is_done = operations == 0 || entry.done >= operations;
-  if (is_done || entry.results.size() >= kMaxPending) report_results(entry);
-  const std::uint32_t id = entry.spec.id;
-  if (is_done && operations > 0) access_specs_.erase(id);
-}
-
 void LlrpReader::add_access_spec(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
-  const AccessSpec spec = access_spec_of(only_parameter(message, kAccessSpec));
-  if (access_specs_.count(spec.id) > 0) {
-    throw Fault(Status::kFieldError, fmt::format("there is an AccessSpec {} already", spec.id));
-  }
-  require_room(access_specs_, kMaxAccessSpecs, "AccessSpecs");
-  if (spec.antenna > ports_.antennas.size()) {
-    throw Fault(Status::kFieldError, fmt::format("there is no antenna {}", spec.antenna));
-  }
-  access_specs_[spec.id].spec = spec;
+  access_specs_.add(message, ports_);
   write_ok(out);
 }
 
 void LlrpReader::change_access_spec(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
-  const std::uint32_t id = id_in(message);
-  if (id != 0 && access_specs_.count(id) == 0) {
-    throw Fault(Status::kFieldError, fmt::format("there is no AccessSpec {}", id));
-  }
-  for (auto entry = access_specs_.begin(); entry != access_specs_.end();) {
-    const bool is_it = id == 0 || entry->first == id;
-    if (is_it) entry->second.is_enabled = message.type == 42;
-    if (is_it && message.type != 42) report_results(entry->second);
-    entry = is_it && message.type == 41 ? access_specs_.erase(entry) : std::next(entry);
-  }
+  add_pending(access_specs_.change(message));
   flush();
   write_ok(out);
 }
@@ -651,55 +574,27 @@ void LlrpReader::change_access_spec(LiveWorld& /*world*/, const Message& message
 void LlrpReader::get_access_specs(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
   ByteReader(message.body).require_end();
   write_ok(out);
-  for (const auto& [id, entry] : access_specs_) {
-    Bytes whole = entry.spec.whole;
-    // After the header, ID, antenna and protocol.
-    whole[11] = static_cast<std::uint8_t>(entry.is_enabled ? 0x80 : 0);
-    out.bytes(whole);
-  }
+  access_specs_.write_all(out);
 }
 
 void LlrpReader::report_gathered(Running& running) { add_pending(running.gathering.take()); }
 
-void LlrpReader::report_results(AccessEntry& entry) {
-  add_pending(std::exchange(entry.results, {}));
-}
-
-/// Keeps the reports of a ROSpec without a trigger until a client asks for them.
-void LlrpReader::keep_unasked(std::vector<Bytes> reports) {
-  for (Bytes& report : reports) unasked_.push_back(std::move(report));
-  while (unasked_.size() > kMaxPending) {
-    unasked_.pop_front();
-    ++dropped_;
-  }
-}
-
 /// Regardless of triggers.
 void LlrpReader::report_all() {
-  const std::deque<Bytes> unasked = std::exchange(unasked_, {});
-  add_pending({unasked.begin(), unasked.end()});
+  queue_.release_kept(is_nobody_taking());
   if (running_) report_gathered(*running_);
-  for (auto& [id, entry] : access_specs_) report_results(entry);
+  add_pending(access_specs_.take_results());
 }
 
+bool LlrpReader::is_nobody_taking() const { return !line_ || is_holding_; }
+
 void LlrpReader::add_pending(std::vector<Bytes> reports) {
-  for (Bytes& report : reports) pending_.push_back(std::move(report));
-  while (pending_.size() > kMaxPending && (!line_ || is_holding_)) {
-    pending_.pop_front();
-    ++dropped_;
-  }
+  queue_.add(std::move(reports), is_nobody_taking());
 }
 
 void LlrpReader::flush() {
-  if (!line_ || is_holding_) return;
-  while (!pending_.empty()) {
-    ByteWriter body;
-    while (!pending_.empty() && body.written().size() < kMaxReportBytes) {
-      body.bytes(pending_.front());
-      pending_.pop_front();
-    }
-    send(kReportMessage, next_id_++, body, true);
-  }
+  if (is_nobody_taking()) return;
+  while (!queue_.is_empty()) send(kReportMessage, next_id_++, queue_.take_message(), true);
 }
 
 }  // namespace tagfield::llrp

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -14,8 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "adapters/llrp/access_specs.h"
 #include "adapters/llrp/capabilities.h"
 #include "adapters/llrp/reader_configuration.h"
+#include "adapters/llrp/report_queue.h"
 #include "adapters/llrp/reports.h"
 #include "adapters/llrp/specs.h"
 #include "adapters/llrp/tag_store.h"
@@ -65,12 +66,6 @@ class LlrpReader {
     State state = State::kDisabled;
     std::optional<Time> next_start;  ///< According to its period.
   };
-  struct AccessEntry {
-    AccessSpec spec;
-    bool is_enabled = false;
-    std::uint16_t done = 0;
-    std::vector<Bytes> results{};  ///< TagReportData to be sent when it ends.
-  };
   /// The active ROSpec.
   struct Running {
     std::uint32_t id = 0;
@@ -119,14 +114,10 @@ class LlrpReader {
   void take(const TagRead& read);
   [[nodiscard]] TagReport report_of(const TagRead& read, const Running& running,
                                     const MemoryBanks& tag) const;
-  AccessEntry* access_for(const TagReport& report, const MemoryBanks& tag);
-  void operate(AccessEntry& entry, const TagRead& read, MemoryBanks& tag, TagReport& report);
-  void end_if_done(AccessEntry& entry);
-  void report_results(AccessEntry& entry);
   void report_gathered(Running& running);
   void report_all();
   void add_pending(std::vector<Bytes> reports);
-  void keep_unasked(std::vector<Bytes> reports);
+  [[nodiscard]] bool is_nobody_taking() const;
   void flush();
   void tell_event(std::uint16_t kind, const std::function<void(ByteWriter&)>& write);
   void send(std::uint16_t type, std::uint32_t id, const ByteWriter& body, bool is_report = false);
@@ -151,15 +142,13 @@ class LlrpReader {
 
   ReaderConfiguration configuration_;
   std::map<std::uint32_t, RoEntry> ro_specs_;
-  std::map<std::uint32_t, AccessEntry> access_specs_;
+  AccessSpecs access_specs_;
   std::optional<Running> running_;
   /// Reads until then have been taken, including those that the world held back and delivers later.
   Time taken_until_ = Time::min();
   Ports ports_;  ///< As of the last step.
   std::map<std::string, bool> faulty_;
-  std::deque<Bytes> pending_;        ///< TagReportData waiting for a client.
-  std::deque<Bytes> unasked_;        ///< Those of ended ROSpecs, waiting for GET_REPORT.
-  std::int64_t dropped_ = 0;         ///< Number of these that were dropped.
+  ReportQueue queue_;
   std::vector<std::string> killed_;  ///< Tags to be removed from the world.
 };
 

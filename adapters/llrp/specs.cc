@@ -256,6 +256,11 @@ void take(const std::optional<Value>& over, std::optional<Value>& value) {
 
 }  // namespace
 
+void require_room(std::size_t count, std::size_t most, const char* what) {
+  if (count < most) return;
+  throw Fault(Status::kOverflowParameter, fmt::format("there are {} {} already", most, what));
+}
+
 void merge(const AntennaSetting& over, AntennaSetting& setting) {
   take(over.power_index, setting.power_index);
   take(over.hop_table, setting.hop_table);

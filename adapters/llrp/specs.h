@@ -38,6 +38,9 @@ inline constexpr std::size_t kMaxAccessSpecs = 1024;
 inline constexpr std::size_t kMaxOpSpecs = 16;  ///< Per AccessSpec.
 inline constexpr std::size_t kMaxFilters = 8;   ///< Per antenna.
 
+/// Throws Fault if there are `count` already, of at most `most`.
+void require_room(std::size_t count, std::size_t most, const char* what);
+
 /// A pattern to compare with bits of a tag's memory.
 struct MemoryMask {
   unsigned bank = 1;

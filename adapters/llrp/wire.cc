@@ -184,6 +184,20 @@ void ByteWriter::custom(std::uint32_t vendor, std::uint32_t subtype,
   });
 }
 
+std::uint32_t id_in(const Message& message) {
+  ByteReader body(message.body);
+  const std::uint32_t id = body.u32();
+  body.require_end();
+  return id;
+}
+
+Parameter only_parameter(const Message& message, std::uint16_t type) {
+  const std::vector<Parameter> all = parameters_of(ByteReader(message.body));
+  Parameter found = require(all, type);
+  require_known(all, {type});
+  return found;
+}
+
 Bytes to_bytes(const Message& message) {
   ByteWriter writer;
   writer.u16(static_cast<std::uint16_t>(kVersion << 10U | message.type));

@@ -128,6 +128,11 @@ inline constexpr std::size_t kHeaderSize = 10;
 /// Far longer than any message from a client.
 inline constexpr std::size_t kMaxMessage = std::size_t{1} << 20U;
 
+/// The ID that is the whole body. Throws Fault if it is not.
+std::uint32_t id_in(const Message& message);
+/// The message's only parameter. Throws Fault if it is not of this type.
+Parameter only_parameter(const Message& message, std::uint16_t type);
+
 /// Encodes the message, with its header.
 Bytes to_bytes(const Message& message);
 

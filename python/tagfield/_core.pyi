@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The C++ extension module; users import tagfield instead."""
 
 from typing import Any, Callable
