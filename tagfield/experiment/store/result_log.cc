@@ -218,7 +218,8 @@ void ResultLog::save() {
     if (count <= 0) {
       const int why = count < 0 ? errno : ENOSPC;
       // A later resume would drop the partial line as well.
-      static_cast<void>(::ftruncate(file_, static_cast<off_t>(size_)));
+      // A variable, as Ubuntu's GCC does not let a cast ignore the result.
+      [[maybe_unused]] const int ignored = ::ftruncate(file_, static_cast<off_t>(size_));
       fail({path_, 0}, fmt::format("can't be written: {}; what is in it is whole, run it again "
                                    "once there is room",
                                    std::strerror(why)));
