@@ -176,9 +176,9 @@ TEST_F(ApiTest, AnObstacleIsOfMetalUnlessItSaysOtherwise) {
   const auto material = [&](const std::string& body) -> std::string {
     const ApiResponse added = ask("POST", "/api/obstacles", body);
     EXPECT_EQ(added.status, 200) << added.body;
-    EXPECT_EQ(world_.scenario().obstacles.back().body->material.name,
-              nlohmann::json::parse(added.body)["material"]);
-    return nlohmann::json::parse(added.body)["material"];
+    std::string answered = nlohmann::json::parse(added.body)["material"];
+    EXPECT_EQ(world_.scenario().obstacles.back().body->material.name, answered);
+    return answered;
   };
   EXPECT_EQ(material(R"({"name": "a", "position": [1, 1], "radius": 1})"), "metal");
   EXPECT_EQ(material(R"({"name": "b", "position": [1, 1], "radius": 1, "material": "wood"})"),
