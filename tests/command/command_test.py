@@ -43,6 +43,14 @@ def help_says_what_there_is(context):
 
 
 @case
+def help_lists_no_empty_conditions(context):
+    for command in ("track", "localize", "coverage"):
+        printed = context.run_well(command, "--help").out
+        check(not re.search(r"(Excludes|Needs):\s*$", printed, re.MULTILINE), f"{command} --help: {printed}")
+    check(not re.search(r"--tag TEXT \.\.\.", context.run_well("coverage", "--help").out), "coverage takes one --tag")
+
+
+@case
 def check_describes_our_world(context):
     world = context.source / "worlds/small_warehouse.sdf"
     result = context.run_well("check", world)
@@ -167,6 +175,20 @@ def a_progress_bar_on_a_terminal_only(context):
     session = OnTerminal(context, *arguments, "--seeds", "20")
     check_equal(session.finish()[0], 0, "exit code")
     check_in("20 seeds [", session.seen, "the terminal")
+
+
+@case
+def long_work_says_what_it_does_in_a_log(context):
+    context.write("slow.sh", "sleep 4\necho tag,x_m,y_m >$1/estimates.csv\n")
+    suite = context.write("suite.yaml", f"scenario: {context.shipped('z_axis')}\nmethods: [hyperbola]\nseeds: 2\n"
+                          "conditions:\n  - {name: one}\n")
+    bench = ("bench", suite, "--no-page", "--threads", "1", "--out")
+    slow = context.run_well(*bench, context.folder / "slow", "--command", f"slow=sh {context.folder}/slow.sh")
+    check(len(slow.progress) >= 2, f"lines of progress: {slow.progress}")
+    check_equal(slow.progress[0], "tagfield: bench: 0 %\n", "the first, before a run is done")
+    check_in("tagfield: bench: 50 %, ", slow.progress[1], "the second, after half of them")
+    quick = context.run_well(*bench, context.folder / "quick")
+    check(quick.seconds > 3 or not quick.progress, f"short work says {quick.progress}")
 
 
 def check_incomplete_folder(folder):

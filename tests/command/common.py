@@ -14,6 +14,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -24,6 +25,7 @@ SKIPPED = 77
 SHARED_DATA = pathlib.Path("../shared/data")
 AWS_WORLD = SHARED_DATA / "aws-small-warehouse/worlds/no_roof_small_warehouse.world"
 SPEED_OF_LIGHT = 299792458.0
+PROGRESS = re.compile(r"tagfield: [^:]+: \d+ %(, [\d.]+ (s|min|h) left)?")
 
 
 class Skip(Exception):
@@ -32,12 +34,14 @@ class Skip(Exception):
 
 @dataclasses.dataclass
 class Result:
-    """Result of a run of the program."""
+    """Result of a run of the program. Work of over three seconds, as on a busy machine, says how far it is:
+    these lines are in `progress`, not in `err`."""
 
     code: int
     out: str
     err: str
     seconds: float
+    progress: list = dataclasses.field(default_factory=list)
 
 
 @dataclasses.dataclass
@@ -106,8 +110,10 @@ def run(command, *, cwd=None, timeout=300):
     done = subprocess.run([str(word) for word in command], cwd=cwd, timeout=timeout,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, env=clean_environment(), check=False)
-    return Result(done.returncode, done.stdout.decode("utf-8", "replace"),
-                  done.stderr.decode("utf-8", "replace"), time.monotonic() - begin)
+    said = done.stderr.decode("utf-8", "replace").splitlines(keepends=True)
+    progress = [line for line in said if PROGRESS.fullmatch(line.rstrip("\n"))]
+    err = "".join(line for line in said if line not in progress)
+    return Result(done.returncode, done.stdout.decode("utf-8", "replace"), err, time.monotonic() - begin, progress)
 
 
 _cases = []

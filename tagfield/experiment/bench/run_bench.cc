@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <mutex>
+#include <numeric>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/experiment/bench/bench.h"
@@ -57,8 +59,9 @@ bool was_done(Job& job, const RunStore* store) {
   return true;
 }
 
-void do_job(Job& job, const RunControl& control, RunStore* store) {
-  if (was_done(job, store)) return;
+/// Returns whether the job had to be run: the store may have its results.
+bool do_job(Job& job, const RunControl& control, RunStore* store) {
+  if (was_done(job, store)) return false;
   try {
     job.runs = run_condition(*job.condition, job.key.seed, control, job.warnings);
   } catch (const Error& error) {
@@ -66,36 +69,90 @@ void do_job(Job& job, const RunControl& control, RunStore* store) {
     fail(condition.location,
          fmt::format("condition '{}', seed {}: {}", condition.name, job.key.seed, error.what()));
   }
-  if (store == nullptr || !job.runs) return;
-  store->add(job.key, to_json_line({*job.runs, job.warnings.warnings()}));
+  if (store != nullptr && job.runs) {
+    store->add(job.key, to_json_line({*job.runs, job.warnings.warnings()}));
+  }
+  return true;
 }
 
-/// Counts the finished jobs.
+/// The share of the work that is done. A job costs the mean time of those of its condition so far,
+/// or, before the first is done, of all.
 class Progress {
  public:
-  Progress(const RunControl& control, std::size_t count) : control_(control), count_(count) {}
+  Progress(const RunControl& control, const std::vector<Job>& jobs) : control_(control) {
+    for (const Job& job : jobs) ++costs_[job.condition].jobs;
+  }
 
-  void add_one() {
+  /// `seconds`: what the job took, or none if the store had its results.
+  void add_one(const Job& job, std::optional<double> seconds) {
     const std::lock_guard lock(mutex_);
-    done_ += 1.0;
-    if (control_.on_progress) control_.on_progress(done_ / static_cast<double>(count_));
+    Cost& cost = costs_[job.condition];
+    if (seconds) {
+      ++cost.done;
+      cost.seconds += *seconds;
+    } else {
+      --cost.jobs;
+    }
+    if (control_.on_progress) control_.on_progress(share());
   }
 
  private:
+  struct Cost {
+    std::size_t jobs = 0;
+    std::size_t done = 0;
+    double seconds = 0.0;
+  };
+
+  [[nodiscard]] double share() const {
+    double seconds = 0.0;
+    double done = 0.0;
+    for (const auto& [condition, cost] : costs_) {
+      seconds += cost.seconds;
+      done += static_cast<double>(cost.done);
+    }
+    std::size_t left = 0;
+    double left_s = 0.0;
+    for (const auto& [condition, cost] : costs_) {
+      const double each_s = cost.done > 0 ? cost.seconds / static_cast<double>(cost.done)
+                                          : seconds / std::max(done, 1.0);
+      left += cost.jobs - cost.done;
+      left_s += each_s * static_cast<double>(cost.jobs - cost.done);
+    }
+    if (left == 0) return 1.0;
+    return seconds > 0.0 ? seconds / (seconds + left_s) : 0.0;
+  }
+
   const RunControl& control_;
-  std::size_t count_;
   std::mutex mutex_;
-  double done_ = 0.0;
+  std::map<const PreparedCondition*, Cost> costs_;
 };
 
+/// One seed of all conditions before the next, so that what each costs is known early; those whose
+/// robots map and navigate, which take the longest, first.
+std::vector<std::size_t> order_of(const std::vector<Job>& jobs) {
+  std::vector<std::size_t> order(jobs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&](std::size_t i) {
+    return std::pair(jobs[i].key.seed, jobs[i].condition->world.has_value() ? 0 : 1);
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  return order;
+}
+
 void run_all(std::vector<Job>& jobs, const RunControl& control, RunStore* store) {
+  using Clock = std::chrono::steady_clock;
   RunControl of_one;
   of_one.stop = control.stop;
-  Progress progress(control, jobs.size());
+  Progress progress(control, jobs);
+  const std::vector<std::size_t> order = order_of(jobs);
   parallel_for(jobs.size(), control.threads, [&](std::size_t i) {
     if (stopped(control)) return;
-    do_job(jobs[i], of_one, store);
-    progress.add_one();
+    Job& job = jobs[order[i]];
+    const Clock::time_point begin = Clock::now();
+    const bool is_run = do_job(job, of_one, store);
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    progress.add_one(job, is_run ? std::optional(seconds) : std::nullopt);
   });
 }
 

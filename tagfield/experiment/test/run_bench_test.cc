@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <set>
 #include <string>
+#include <thread>
 
 #include "tagfield/experiment/bench/bench.h"
 #include "tagfield/experiment/bench/bench_files.h"
@@ -104,11 +106,32 @@ TEST(RunBench, StoppedKeepsWholeRuns) {
   std::atomic<bool> stop{false};
   RunControl control;
   control.stop = &stop;
-  control.on_progress = [&](double share) { stop = share > 0.3; };
+  int finished = 0;
+  control.on_progress = [&](double) { stop = ++finished == 3; };
   const Bench bench = run_bench(small_suite(), with_constant(), control);
   EXPECT_FALSE(bench.complete);
+  // One seed of all conditions is run before the next.
   EXPECT_EQ(bench.entries[0].runs.size(), 2U);
-  EXPECT_EQ(bench.entries[2].runs.size(), 0U);
+  EXPECT_EQ(bench.entries[1].runs.size(), 2U);
+  EXPECT_EQ(bench.entries[2].runs.size(), 1U);
+}
+
+TEST(RunBench, ProgressWeighsConditionsByTheirTime) {
+  Suite suite = small_suite();
+  suite.methods[0] = {"slow", "slow", {}, {}};
+  suite.conditions[0].methods = {"slow"};
+  std::vector<Method> methods = with_constant();
+  methods.push_back({"slow", "takes 0.2 s", [](const LocalizationProblem&, int, Diagnostics&) {
+                       std::this_thread::sleep_for(std::chrono::milliseconds(200));
+                       return LocalizationResult{};
+                     }});
+  std::vector<double> shares;
+  RunControl control = on_threads(1);
+  control.on_progress = [&](double share) { shares.push_back(share); };
+  run_bench(suite, methods, control);
+  ASSERT_EQ(shares.size(), 6U);
+  EXPECT_GT(shares[4] - shares[3], 2.0 * (shares[5] - shares[4])) << "slow against quick runs";
+  EXPECT_EQ(shares.back(), 1.0);
 }
 
 TEST(RunBench, SaysWhyThereIsNoBound) {
