@@ -8,6 +8,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/command_method.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/method_text.h"
 #include "apps/tagfield/program_version.h"
 #include "apps/tagfield/progress_bar.h"
@@ -224,9 +225,8 @@ void add_bench_command(CLI::App& app, Action& chosen) {
       "bench", "Compare localization methods in many conditions with many seeds");
   add_options(*command, *arguments);
   command->footer(
-      "A suite names methods and conditions. Each condition is simulated once with each seed, or "
-      "was\n"
-      "recorded, and all its methods locate the same reads:\n\n"
+      "A suite names methods and conditions. Each condition is simulated once with each seed, or\n"
+      "was recorded, and all its methods locate the same reads:\n\n"
       "  scenario: ../paper_warehouse.yaml      # relative to the suite\n"
       "  seeds: 100\n"
       "  methods: [hyperbola, {name: coarse, method: hyperbola, localization: {stride_m: 1}}]\n"
@@ -241,8 +241,7 @@ void add_bench_command(CLI::App& app, Action& chosen) {
       "method, and tags.csv with a row for each tag of each run. For example\n"
       "  tagfield bench scenarios/bench/paper_warehouse.yaml --seeds 5\n"
       "Ctrl-C ends it early and keeps the runs that are done; --resume continues it, also after a\n"
-      "kill. docs/bench.md lists all keys and\n"
-      "columns, and says how errors are judged.");
+      "kill. docs/bench.md lists all keys and columns, and says how errors are judged.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return bench(*arguments); }; });
 }
 

@@ -8,6 +8,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
+#include "apps/tagfield/json_option.h"
 #include "tagfield/calibration/calibration.h"
 #include "tagfield/calibration/carry_over.h"
 #include "tagfield/files/files.h"
@@ -198,7 +199,7 @@ void add_calibrate_command(CLI::App& app, Action& chosen) {
       ->add_option("--time-sigma", arguments->options.time_offset_sigma_s,
                    "How late or early stamps may be, one sigma [s] (default 0.05)")
       ->check(CLI::PositiveNumber);
-  command->add_flag("--json", arguments->as_json, "Print the profile as JSON instead of text");
+  add_json_option(*command, arguments->as_json, "the values of the profile");
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->footer(

@@ -7,6 +7,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_option.h"
 #include "tagfield/base/error.h"
 #include "tagfield/base/file_kind.h"
 #include "tagfield/files/files.h"
@@ -128,12 +129,6 @@ void write(const RunComparison& comparison, const std::vector<Silhouette>& geome
 
 int compare(const CompareArguments& arguments) {
   const RunComparison comparison = comparison_of(arguments);
-  if (arguments.as_json) {
-    if (!arguments.out.empty())
-      throw Error("compare: --json writes nothing, so --out has no effect");
-    fmt::print("{}", comparison_to_json(comparison));
-    return kExitOk;
-  }
   const std::string out = arguments.out.empty() ? "runs/" + name_of_run(arguments.first) + "_and_" +
                                                       name_of_run(arguments.second)
                                                 : arguments.out;
@@ -142,8 +137,12 @@ int compare(const CompareArguments& arguments) {
   catch_interrupts();
   write(comparison, geometry_of_runs(arguments), out);
   print_warnings(diagnostics);
-  print(comparison);
-  fmt::print("page: {}/compare.html\n", out);
+  if (arguments.as_json) {
+    fmt::print("{}", comparison_to_json(comparison));
+  } else {
+    print(comparison);
+    fmt::print("page: {}/compare.html\n", out);
+  }
   return kExitOk;
 }
 
@@ -156,9 +155,9 @@ void add_compare_command(CLI::App& app, Action& chosen) {
   command->add_option("RUN", arguments->first, "Folder of a run, or of 'localize'")->required();
   command->add_option("OTHER", arguments->second, "Another one, of the same tags")->required();
   command->add_option("--out", arguments->out, "Folder for the page (default runs/RUN_and_OTHER)");
-  command->add_flag("--json", arguments->as_json, "Print JSON instead, and write nothing");
+  add_json_option(*command, arguments->as_json, "compare.json");
   command->footer(
-      "The folder then holds compare.html, its figures/, compare.csv with a row a tag, and\n"
+      "The folder then holds compare.html, its figures/, compare.csv with a row for each tag, and\n"
       "compare.json. Runs of several seeds are compared by each tag's mean over them. Which of "
       "two\n"
       "settings is better over many conditions is for 'bench' and 'sweep'. For example\n"

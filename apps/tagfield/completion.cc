@@ -7,6 +7,8 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/command_reference.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_line.h"
+#include "apps/tagfield/json_option.h"
 #include "tagfield/base/error.h"
 #include "tagfield/files/files.h"
 
@@ -284,30 +286,43 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
   throw Error(fmt::format("completion: there is none for '{}'; expected bash, zsh or fish", shell));
 }
 
+namespace {
+
+int print_or_write_script(const std::string& script, const std::string& shell,
+                          const std::string& file, bool as_json) {
+  if (file.empty()) {
+    as_json ? print_json_line({{"shell", shell}, {"script", script}}) : fmt::print("{}", script);
+    return kExitOk;
+  }
+  catch_interrupts();
+  write_text_file(file, script);
+  if (as_json) print_json_line({{"shell", shell}, {"file", file}});
+  return kExitOk;
+}
+
+}  // namespace
+
 void add_completion_command(CLI::App& app, Action& chosen) {
   const auto shell = std::make_shared<std::string>();
   const auto file = std::make_shared<std::string>();
+  const auto as_json = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand(
       "completion", "Print a script that completes commands, options and files in a shell");
   command->add_option("SHELL", *shell, "Shell to print it for")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
   command->add_option("--out", *file, "File to write it to instead");
+  add_json_option(
+      *command, *as_json,
+      "{\"shell\": SHELL, \"script\": TEXT}, or with --out {\"shell\": SHELL, \"file\": FILE}");
   command->footer(
       "Installed packages include it. Otherwise, for this shell alone or in its start-up file:\n"
       "  bash:  source <(tagfield completion bash)\n"
       "  zsh:   source <(tagfield completion zsh)\n"
       "  fish:  tagfield completion fish | source");
-  command->callback([shell, file, &app, &chosen] {
-    chosen = [shell, file, &app] {
-      const std::string script = completion_script(app, *shell);
-      if (file->empty()) {
-        fmt::print("{}", script);
-      } else {
-        catch_interrupts();
-        write_text_file(*file, script);
-      }
-      return kExitOk;
+  command->callback([shell, file, as_json, &app, &chosen] {
+    chosen = [shell, file, as_json, &app] {
+      return print_or_write_script(completion_script(app, *shell), *shell, *file, *as_json);
     };
   });
 }

@@ -7,6 +7,7 @@
 
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/coverage_arguments.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/own_folder.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/top_view_file.h"
@@ -150,11 +151,12 @@ void add_options(CLI::App& command, CoverageArguments& arguments) {
       ->allow_extra_args(false);
   command.add_option("--tag-profile", arguments.tag_profile,
                      "Kind of tag in the maps, a file of profiles/tags (default: the first tag's)");
+  // A second one is refused by name.
   command
       .add_option("--tag", arguments.tags,
                   "The maps are of this tag of the scenario: its kind and settings")
       ->take_all()
-      ->allow_extra_args(false);
+      ->expected(1);
   command
       .add_option(
           "--tag-set", arguments.tag_settings,

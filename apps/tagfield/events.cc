@@ -9,6 +9,7 @@
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/middleware_arguments.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/start_time.h"
@@ -243,7 +244,7 @@ void add_events_command(CLI::App& app, Action& chosen) {
                       "an event on each line if its name ends in .jsonl");
   add_capture_options(*command, arguments->capture);
   add_start_option(*command, arguments->start);
-  command->add_flag("--json", arguments->json, "Print each event as a line of JSON");
+  add_json_option(*command, arguments->json, "a line for each event");
   command->footer(
       "Without --spec each reader is one location, a tag is there from its first read on, and "
       "gone\n"

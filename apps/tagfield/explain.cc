@@ -7,6 +7,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/explain_text.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "tagfield/planning/explanation_json.h"
 #include "tagfield/planning/link_at.h"
@@ -69,7 +70,7 @@ void add_explain_command(CLI::App& app, Action& chosen) {
                    "Moment of the run [s]: robots, lifts and tags are where they are then "
                    "(default 0)")
       ->check(CLI::Range(0.0, 1e9));
-  command->add_flag("--json", arguments->as_json, "Print JSON, with all paths");
+  add_json_option(*command, arguments->as_json, "with all paths");
   command->footer(
       "The first line is the verdict:\n"
       "  read: +6.2 dB at the tag, +21.0 dB at the reader\n"

@@ -11,6 +11,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/json_line.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
 #include "apps/tagfield/speed_option.h"
@@ -139,9 +140,9 @@ void add_gazebo_command(CLI::App& app, Action& chosen) {
                    "Scenario file (YAML); with --gz also a .world or .sdf of Gazebo 11")
       ->required();
   command->add_option("--out", arguments->out, "File to write (default NAME.world, or NAME.sdf)");
-  command->add_flag("--json", arguments->as_json,
-                    "Print JSON for machines instead of text: {\"world\": FILE, \"environment\": "
-                    "{VARIABLE: FOLDERS}}");
+  add_json_option(*command, arguments->as_json,
+                  "{\"world\": FILE, \"environment\": "
+                  "{VARIABLE: FOLDERS}}");
   add_world_options(*command, arguments->world);
   command->add_option("--set", arguments->settings, "Replace a value of the scenario, as in 'run'")
       ->take_all()

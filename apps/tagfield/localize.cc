@@ -14,6 +14,7 @@
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/localize_known.h"
 #include "apps/tagfield/method_text.h"
 #include "apps/tagfield/odd_tables.h"

@@ -17,6 +17,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/first_steps.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/memory_limit.h"
 #include "apps/tagfield/usage_fault.h"
 #include "apps/tagfield/version.h"
@@ -37,8 +38,7 @@ int parse_and_run(int argc, char** argv) {
   bool as_json = false;
   CLI::Option* version_flag =
       app.add_flag("--version", version, "Print the version, its commit, and what was compiled in");
-  app.add_flag("--json", as_json, "With --version, JSON for machines instead of text")
-      ->needs(version_flag);
+  tagfield::add_json_option(app, as_json, "with --version")->needs(version_flag);
   tagfield::Action chosen;
   tagfield::add_commands(app, chosen);
   try {

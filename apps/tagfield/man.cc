@@ -8,6 +8,8 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/command_reference.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_line.h"
+#include "apps/tagfield/json_option.h"
 #include "tagfield/base/error.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/files/files.h"
@@ -18,6 +20,7 @@ namespace {
 struct ManArguments {
   std::string command;
   std::string folder;
+  bool as_json = false;
 };
 
 const CLI::App& page_of(const CLI::App& app, const std::string& name) {
@@ -33,7 +36,8 @@ const CLI::App& page_of(const CLI::App& app, const std::string& name) {
 int print_or_write(const CLI::App& app, const ManArguments& arguments) {
   const BuildInfo build = build_info();
   if (arguments.folder.empty()) {
-    fmt::print("{}", man_page(page_of(app, arguments.command), build.version, build.date));
+    const std::string page = man_page(page_of(app, arguments.command), build.version, build.date);
+    arguments.as_json ? print_json_line({{"page", page}}) : fmt::print("{}", page);
     return kExitOk;
   }
   std::vector<const CLI::App*> pages = commands_of(app);
@@ -45,6 +49,10 @@ int print_or_write(const CLI::App& app, const ManArguments& arguments) {
                        man_page(*page, build.version, build.date));
   }
   write_text_files(files);
+  if (!arguments.as_json) return kExitOk;
+  nlohmann::ordered_json json = {{"files", nlohmann::json::array()}};
+  for (const auto& [path, text] : files) json["files"].push_back(path);
+  print_json_line(json);
   return kExitOk;
 }
 
@@ -58,6 +66,7 @@ void add_man_command(CLI::App& app, Action& chosen) {
       command->add_option("COMMAND", arguments->command, "Command that it describes");
   command->add_option("--out", arguments->folder, "Write all pages into this folder instead")
       ->excludes(name);
+  add_json_option(*command, arguments->as_json, "{\"page\": TEXT}, or with --out {\"files\": […]}");
   command->footer(
       "Installed packages include the pages: man tagfield-run. Otherwise:\n"
       "  tagfield man run | man -l -");

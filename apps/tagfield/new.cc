@@ -7,6 +7,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/json_line.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
 #include "tagfield/base/error.h"
@@ -91,8 +92,7 @@ void add_new_command(CLI::App& app, Action& chosen) {
       "  tagfield run my_hall/my_hall.yaml\n"
       "docs/scenario.md lists all keys of a scenario.");
   const auto as_json = std::make_shared<bool>(false);
-  command->add_flag("--json", *as_json,
-                    "Print JSON for machines instead of text: {\"folder\": …, \"files\": […]}");
+  add_json_option(*command, *as_json, "{\"folder\": …, \"files\": […]}");
   command->callback(
       [name, as_json, &chosen] { chosen = [name, as_json] { return make_new(*name, *as_json); }; });
 }

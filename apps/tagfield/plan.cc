@@ -7,6 +7,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/own_folder.h"
 #include "apps/tagfield/plan_arguments.h"
 #include "apps/tagfield/progress_bar.h"

@@ -8,6 +8,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/json_line.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/localize.h"
 #include "tagfield/report/page.h"
 
@@ -39,9 +40,7 @@ void add_report_command(CLI::App& app, Action& chosen) {
       ->required();
   command->add_option("--out", arguments->out,
                       "Folder for the results of a bag (default runs/NAME)");
-  command->add_flag("--json", arguments->as_json,
-                    "Print JSON for machines instead of text: {\"page\": FILE}, of a bag as "
-                    "summary.json");
+  add_json_option(*command, arguments->as_json, "{\"page\": FILE}; of a bag, summary.json");
   command->callback([arguments, &chosen] { chosen = [arguments] { return report(*arguments); }; });
 }
 

@@ -8,6 +8,7 @@
 #include "adapters/http/run_json.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/long_runs.h"
 #include "apps/tagfield/outlet_arguments.h"
 #include "apps/tagfield/own_folder.h"

@@ -51,10 +51,6 @@ void add_world_options(CLI::App& command, WorldOptions& options) {
                    "Let the world name files outside of its folder and the model paths");
 }
 
-void add_json_option(CLI::App& command, bool& as_json, const std::string& file) {
-  command.add_flag("--json", as_json, "Print JSON for machines instead of text, as " + file);
-}
-
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
   add_world_options(command, arguments.world);
   command.add_option("SCENARIO", arguments.scenario, "Scenario file (YAML)")->required();

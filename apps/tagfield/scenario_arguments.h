@@ -25,9 +25,6 @@ struct ScenarioArguments {
 /// Adds --skip-missing and --allow-outside.
 void add_world_options(CLI::App& command, WorldOptions& options);
 
-/// Adds --json, with which the command prints the contents of `file`.
-void add_json_option(CLI::App& command, bool& as_json, const std::string& file);
-
 /// Adds SCENARIO, --set, --without, --seed and the world's options.
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 

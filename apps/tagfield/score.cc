@@ -8,6 +8,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/table.h"
 #include "tagfield/base/file_kind.h"
 #include "tagfield/experiment/judge.h"
@@ -118,7 +119,7 @@ void add_score_command(CLI::App& app, Action& chosen) {
       ->add_option("--run", arguments->run,
                    "Folder of the run: its reads.csv, and truth/ to judge by")
       ->required();
-  command->add_flag("--json", arguments->as_json, "Print JSON, as summary.json");
+  add_json_option(*command, arguments->as_json, "what summary.json holds");
   command->footer(
       "An estimator in any language can take part: it reads reads.csv and antenna_poses.csv of a "
       "run,\n"

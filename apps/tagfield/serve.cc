@@ -15,6 +15,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/json_line.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/middleware_arguments.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/speed_option.h"
@@ -268,10 +269,9 @@ void add_serve_command(CLI::App& app, Action& chosen) {
   command->add_option("--token", arguments->token,
                       "Token required for commands from other machines (default: random)");
   add_speed_option(*command, arguments->speed, "1");
-  command->add_flag(
-      "--json", arguments->as_json,
-      "Print the addresses as a line of JSON: {\"http\": URL, \"llrp\": [{\"reader\", "
-      "\"address\", \"port\"}]}");
+  add_json_option(*command, arguments->as_json,
+                  "a line {\"http\": URL, \"llrp\": [{\"reader\", "
+                  "\"address\", \"port\"}]}");
   command->add_flag("--paused", arguments->is_paused, "Start paused, until resumed");
   command->footer(
       "Then open the page that it names, or ask the API (docs/live.md):\n"

@@ -9,6 +9,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/middleware_arguments.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/speed_option.h"
@@ -26,6 +27,7 @@ struct StreamArguments {
   std::string start;
   MiddlewareArguments middleware;
   int threads = default_threads();
+  bool as_json = false;  ///< Without effect.
 };
 
 /// Thrown when the reader of standard output has closed it: there is nothing more to do.
@@ -118,6 +120,7 @@ void add_stream_command(CLI::App& app, Action& chosen) {
   add_middleware_options(*command, arguments->middleware);
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
+  add_json_option(*command, arguments->as_json, "a line for each read, as without this option");
   command->footer(
       "A line has timestamp, reader, antennaPort, antennaName, epc, epcHex (where the tag's ID "
       "has\n"

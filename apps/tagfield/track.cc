@@ -12,6 +12,7 @@
 
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/stored_reads.h"
 #include "apps/tagfield/track_files.h"
@@ -177,10 +178,7 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
       ->expected(2)
       ->delimiter(',');
   // In all other commands it is the speed of simulated time.
-  command.add_option("--speed", arguments.old_speeds)
-      ->expected(2)
-      ->excludes("--speed-range")
-      ->group("");
+  command.add_option("--speed", arguments.old_speeds)->expected(2)->group("");
   command
       .add_option(
           "--acceleration-noise", arguments.acceleration_noise,
@@ -217,6 +215,9 @@ void apply(const TrackArguments& arguments, TrackingSpec& spec) {
   }
   if (!arguments.line.empty()) {
     spec.line = PassingLine{{arguments.line[0], arguments.line[1]}, radians(arguments.line[2])};
+  }
+  if (!arguments.speeds.empty() && !arguments.old_speeds.empty()) {
+    throw Error("track: --speed is the former name of --speed-range: expected one of them");
   }
   const std::vector<double>& speeds =
       arguments.speeds.empty() ? arguments.old_speeds : arguments.speeds;

@@ -11,6 +11,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/json_line.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "tagfield/files/staged_folder.h"
@@ -112,8 +113,7 @@ void add_view_command(CLI::App& app, Action& chosen) {
       "Scenario that a recording was made from: its world and its antennas' beams are drawn");
   command->add_option("--http", arguments->port, "Port of the page; 0 for any (default 8080)")
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
-  command->add_flag("--json", arguments->as_json,
-                    "Print the address as a line of JSON: {\"http\": URL}");
+  add_json_option(*command, arguments->as_json, "a line {\"http\": URL}");
   command->add_option("--listen", arguments->listen,
                       "IP address to be reached at (default 127.0.0.1, by this machine alone)");
   command->footer(

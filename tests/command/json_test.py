@@ -4,6 +4,7 @@
 
 import contextlib
 import json
+import re
 import signal
 import subprocess
 import urllib.request
@@ -29,6 +30,7 @@ def json_is_what_the_files_hold(context):
             (("coverage", warehouse, "--height", "1", "--step", "1"), "coverage.json"),
             (("plan", context.shipped("plan/aisle"), "--no-links"), "plan.json"),
             (("bench", suite, "--no-page"), "bench.json"),
+            (("compare", run, run), "compare.json"),
             (("sweep", sweep, "--no-page"), "results.json")):
         folder = out / f"of_{arguments[0]}"
         printed = json.loads(context.run_well(*arguments, "--json", "--out", folder).out)
@@ -45,6 +47,27 @@ def json_is_what_the_files_hold(context):
     for arguments in (("run", warehouse, "--record-only", "--json"), ("track", run / "reads.csv", "--poses",
                       run / "antenna_poses.csv", "--allow-outside"), ("localize", run, "--skip-missing")):
         check_equal(context.run(*arguments).code, 2, words(arguments))
+
+
+@case
+def every_command_takes_it(context):
+    names = re.findall(r"^  (\w+)  ", context.run_well("--help").out.split("Subcommands:")[-1], re.MULTILINE)
+    check(len(names) > 20, f"commands: {names}")
+    for name in names:
+        help_text = " ".join(context.run_well(name, "--help").out.split())
+        check(re.search(r"--json (Excludes: \S+ )?Print JSON for machines instead of text", help_text), f"{name}: {help_text}")
+    lines = context.run_well("stream", context.shipped("portal"), "--speed", "0", "--json").out
+    check_equal(lines, context.run_well("stream", context.shipped("portal"), "--speed", "0").out, "stream")
+    for shell in ("bash", "zsh", "fish"):
+        printed = json.loads(context.run_well("completion", shell, "--json").out)
+        check_equal(printed, {"shell": shell, "script": context.run_well("completion", shell).out}, shell)
+    written = json.loads(context.run_well("completion", "bash", "--out", "script", "--json").out)
+    check_equal(written, {"shell": "bash", "file": "script"}, "completion --out")
+    page = json.loads(context.run_well("man", "run", "--json").out)
+    check_equal(page, {"page": context.run_well("man", "run").out}, "man")
+    (context.folder / "pages").mkdir()
+    pages = json.loads(context.run_well("man", "--out", context.folder / "pages", "--json").out)["files"]
+    check_equal(sorted(pages), sorted(map(str, (context.folder / "pages").iterdir())), "man --out")
 
 
 @case
