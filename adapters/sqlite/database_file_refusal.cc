@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Replaces database_file.cc in builds without SQLite.
+// Replaces database_file.cc and table_counts.cc in builds without SQLite.
 #include "adapters/sqlite/database_file.h"
+#include "adapters/sqlite/table_counts.h"
 #include "tagfield/base/error.h"
 
 namespace tagfield::sqlite {
@@ -18,5 +19,9 @@ void DatabaseFile::add_table(const TableForm&, const std::vector<std::string>&) 
 void DatabaseFile::add_row(const std::string&, const std::vector<Cell>&) {}
 void DatabaseFile::run(const std::string&) {}
 void DatabaseFile::finish() {}
+
+std::map<std::string, std::int64_t> table_counts(const std::string& path) {
+  fail({path, 0}, "this tagfield was built without SQLite (libsqlite3-dev)");
+}
 
 }  // namespace tagfield::sqlite

@@ -10,6 +10,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/long_runs.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
@@ -191,23 +192,55 @@ Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
   return describe_checked_file(arguments.of, kind, diagnostics);
 }
 
+/// A fact's name in words, and its unit, which keys end with: "duration_s" → "duration", "s".
+struct FactName {
+  std::string words;
+  std::string unit;
+};
+
+FactName fact_name(const std::string& key) {
+  constexpr std::pair<const char*, const char*> kUnits[] = {
+      {"_s", "s"},     {"_m", "m"},     {"_m_s", "m/s"}, {"_db", "dB"},
+      {"_dbi", "dBi"}, {"_dbm", "dBm"}, {"_hz", "Hz"},   {"_khz", "kHz"},
+      {"_us", "µs"},   {"_rad", "rad"}, {"_deg", "°"},   {"_ms", "ms"}};
+  FactName name{key, ""};
+  std::size_t longest = 0;
+  for (const auto& [ending, unit] : kUnits) {
+    const std::string end = ending;
+    if (end.size() <= longest || key.size() <= end.size()) continue;
+    if (key.compare(key.size() - end.size(), end.size(), end) != 0) continue;
+    longest = end.size();
+    name = {key.substr(0, key.size() - longest), unit};
+  }
+  std::replace(name.words.begin(), name.words.end(), '_', ' ');
+  return name;
+}
+
+/// Ten digits, more than any measurement has: without the rounding errors of sums.
+std::string fact_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number_float() ? fmt::format("{:.10g}", value.get<double>()) : value.dump();
+}
+
+/// How many names, and the first of them; all of several numbers, such as coordinates.
+std::string list_text(const Json& values) {
+  constexpr std::size_t kMaxNames = 12;
+  std::string names;
+  for (std::size_t i = 0; i < values.size() && i < kMaxNames; ++i) {
+    names += (i == 0 ? "" : ", ") + fact_text(values[i]);
+  }
+  if (!values.empty() && values[0].is_number()) return names;
+  return fmt::format("{}{}{}", values.size(), values.empty() ? "" : ": " + names,
+                     values.size() > kMaxNames ? ", …" : "");
+}
+
 /// Prints the contents of a file, one fact per line.
 void print_facts(const Json& json) {
-  constexpr std::size_t kMaxNames = 12;
   for (const auto& [key, value] : json.items()) {
-    std::string words = key;
-    std::replace(words.begin(), words.end(), '_', ' ');
-    if (!value.is_array()) {
-      fmt::print("{}: {}\n", words, value.is_string() ? value.get<std::string>() : value.dump());
-      continue;
-    }
-    std::string names;
-    for (std::size_t i = 0; i < value.size() && i < kMaxNames; ++i) {
-      const Json& name = value[i];
-      names += (i == 0 ? "" : ", ") + (name.is_string() ? name.get<std::string>() : name.dump());
-    }
-    fmt::print("{}: {}{}{}\n", words, value.size(), value.empty() ? "" : ": " + names,
-               value.size() > kMaxNames ? ", …" : "");
+    const FactName name = fact_name(key);
+    const std::string text = value.is_array() ? list_text(value) : fact_text(value);
+    const bool has_unit = !name.unit.empty() && !text.empty();
+    fmt::print("{}: {}{}{}\n", name.words, text, has_unit ? " " : "", has_unit ? name.unit : "");
   }
 }
 
@@ -329,7 +362,7 @@ void add_check_command(CLI::App& app, Action& chosen) {
           "FILE", arguments->of.path,
           "Scenario, plan, suite, sweep, events, profile, calibration or map (YAML), world "
           "(.sdf, .world), table (CSV, also in an archive), recording of ROS (.bag, .mcap, .db3), "
-          "or the folder of a run")
+          "other results (.json, .jsonl, .sqlite, .html, .svg), or a folder of results")
       ->required();
   command->add_option("--poses", arguments->of.poses,
                       "With a table of reads: the poses of its antennas (CSV), which are then "
@@ -343,7 +376,7 @@ void add_check_command(CLI::App& app, Action& chosen) {
                    "Folder to look up model://NAME in; can be given several times")
       ->allow_extra_args(false);
   add_world_options(*command, arguments->world);
-  command->add_flag("--json", arguments->as_json, "JSON for machines instead of text");
+  add_json_option(*command, arguments->as_json);
   command->callback(
       [arguments, &chosen] { chosen = [arguments] { return check_file(*arguments); }; });
 }

@@ -2,7 +2,6 @@
 #include "apps/tagfield/checked_file.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,6 +10,8 @@
 
 #include "adapters/archive/unpacked_archive.h"
 #include "adapters/ros1/bag_recording.h"
+#include "apps/tagfield/checked_result.h"
+#include "apps/tagfield/checked_table.h"
 #include "apps/tagfield/command_method.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/odd_tables.h"
@@ -22,16 +23,11 @@
 #include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/sweep/design.h"
 #include "tagfield/experiment/sweep/sweep_plan.h"
-#include "tagfield/files/csv.h"
-#include "tagfield/files/poses_csv.h"
 #include "tagfield/files/read_overview.h"
 #include "tagfield/files/reads_csv.h"
-#include "tagfield/files/tag_heights_csv.h"
-#include "tagfield/files/tag_positions_csv.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/map/map_file.h"
-#include "tagfield/report/estimates_csv.h"
 #include "tagfield/report/run_files.h"
 #include "tagfield/scenario/calibration_profile.h"
 #include "tagfield/scenario/dataset_format.h"
@@ -46,9 +42,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kExpected =
     "expected a scenario, plan, suite, sweep, events, profile, dataset format, calibration or map "
-    "(YAML), a "
-    "world (.sdf, .world), a table (.csv, or one in an archive such as .tgz), a recording of ROS "
-    "(.bag, .mcap, .db3) or the folder of a run";
+    "(YAML), a world (.sdf, .world), a table (.csv, or one in an archive such as .tgz), a "
+    "recording of ROS (.bag, .mcap, .db3), another result (.json, .jsonl, .sqlite, .html, .svg) or "
+    "the folder of a command's results";
 
 std::string kind_of_yaml(const std::string& path) {
   const YAML::Node root = read_yaml(path);
@@ -74,14 +70,6 @@ std::vector<std::string> names_in(const Rows& rows, const Name& name) {
   return {names.begin(), names.end()};
 }
 
-template <class Rows>
-double span_s(const Rows& rows) {
-  if (rows.empty()) return 0.0;
-  const auto [first, last] = std::minmax_element(
-      rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
-  return to_seconds(last->stamp - first->stamp);
-}
-
 void add_reads(const ReadOverview& reads, Json& json) {
   json["reads"] = reads.count;
   json["tags"] = names_in(reads.tags, [](const std::string& tag) { return tag; });
@@ -89,20 +77,7 @@ void add_reads(const ReadOverview& reads, Json& json) {
   json["duration_s"] = reads.count == 0 ? 0.0 : to_seconds(reads.last - reads.first);
 }
 
-void add_poses(const std::vector<AntennaPose>& poses, Json& json) {
-  json["poses"] = poses.size();
-  json["antennas"] = names_in(poses, [](const AntennaPose& pose) { return pose.antenna; });
-  json["duration_s"] = span_s(poses);
-}
-
 // --- Tables ------------------------------------------------------------------
-
-Json describe_estimates(const std::string& path) {
-  const std::vector<TagEstimate> estimates =
-      read_estimates_csv(path, [](const std::string&) { return 0.0; });
-  return {{"kind", "estimates"},
-          {"tags", names_in(estimates, [](const TagEstimate& estimate) { return estimate.tag; })}};
-}
 
 /// The table of reads if it does not fit in memory; none otherwise.
 std::optional<std::string> large_table(const CheckedFile& file) {
@@ -148,39 +123,10 @@ void refuse_poses(const CheckedFile& file) {
 
 /// Identified by its columns, regardless of the file's name.
 Json describe_plain_table(const CheckedFile& file, Diagnostics& diagnostics) {
-  const std::string& path = file.path;
-  CsvTable head;
-  std::size_t rows = 0;
-  read_csv_rows(
-      path, [&](const CsvTable& table) { head = table; }, [&](const CsvRow&) { ++rows; });
-  const auto has = [&](std::initializer_list<const char*> columns) {
-    return std::all_of(columns.begin(), columns.end(),
-                       [&](const char* column) { return head.has_column(column); });
-  };
-  if (has({"stamp_s", "antenna", "tag", "frequency_hz", "rssi_dbm"})) {
-    return describe_reads(file, diagnostics);
-  }
+  const std::string kind = kind_of_table(file.path);
+  if (kind == kTableOfReads) return describe_reads(file, diagnostics);
   refuse_poses(file);
-  Json json;
-  if (has({"stamp_s", "antenna", "x_m", "qw"})) {
-    json["kind"] = "antenna poses";
-    add_poses(read_poses_csv(path), json);
-  } else if (has({"tag", "height_m"})) {
-    json = {{"kind", "heights of tags"}, {"tags", read_tag_heights_csv(path).size()}};
-  } else if (has({"tag", "x_m", "y_m"}) && !has({"stamp_s"})) {
-    if (has({"verdict"}) || !has({"z_m"})) return describe_estimates(path);
-    json = {{"kind", "positions of tags"}, {"tags", read_tag_positions_csv(path).size()}};
-  } else if (has({"stamp_s", "tag", "x_m"}) || has({"stamp_s", "robot", "x_m"}) ||
-             has({"distance_m"})) {
-    json = {{"kind", "table of the truth"}, {"rows", rows}, {"columns", head.header}};
-  } else {
-    fail({path, 1},
-         fmt::format(
-             "is a table with the columns {}, which no table of Tagfield has (docs/files.md); "
-             "tables in other formats are read with --format (docs/datasets.md)",
-             fmt::join(head.header, ", ")));
-  }
-  return json;
+  return describe_table_of(kind, file.path);
 }
 
 Json describe_table(const CheckedFile& file, Diagnostics& diagnostics) {
@@ -301,16 +247,19 @@ std::string kind_of_file(const CheckedFile& file) {
   const std::string& path = file.path;
   std::error_code error;
   if (!file.format.empty() || is_archive(path)) return "table";
+  if (is_sweep_database(path)) return "result";
   if (is_bag(path)) return "recording";
   if (fs::is_directory(path, error)) {
     if (fs::exists(fs::path(path) / "summary.json", error)) return "run";
+    if (is_result_folder(path)) return "result";
     if (is_run(path) && fs::exists(fs::path(path) / "antenna_poses.csv", error)) return "table";
-    fail({path, 0}, std::string("is a folder, but not of a run; ") + kExpected);
+    fail({path, 0}, std::string("is a folder, but not of a run or of other results; ") + kExpected);
   }
   const std::string ending = fs::path(path).extension().string();
   if (ending == ".yaml" || ending == ".yml") return kind_of_yaml(path);
   if (ending == ".sdf" || ending == ".world") return "world";
   if (ending == ".csv") return "table";
+  if (is_result_name(path)) return "result";
   fail({path, 0}, kExpected);
 }
 
@@ -320,6 +269,7 @@ Json describe_checked_file(const CheckedFile& file, const std::string& kind,
   if (kind == "table") return describe_table(file, diagnostics);
   refuse_poses(file);
   const std::string& path = file.path;
+  if (kind == "result") return describe_result(path);
   if (kind == "suite" || kind == "sweep") return describe_suite(path, kind, diagnostics);
   if (kind == "events") return describe_events(path);
   if (kind == "profile") return describe_profile(path);

@@ -18,8 +18,8 @@ struct CheckedFile {
 
 /// The kind of a file, according to its contents: "scenario", "plan", "suite", "sweep", "events",
 /// "profile", "dataset format", "calibration" or "map" for YAML files, "world", "recording", "run"
-/// (a folder), or "table", also in an archive or with a format. Throws Error, which lists the
-/// kinds, if it is none of these.
+/// (a folder), "table", also in an archive or with a format, or "result", which is any other file
+/// or folder that a command writes. Throws Error, which lists the kinds, if it is none of these.
 std::string kind_of_file(const CheckedFile& file);
 
 /// Reads a file of a kind other than "scenario", "plan" and "world" just as the commands that use

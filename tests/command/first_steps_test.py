@@ -10,6 +10,14 @@ import sys
 
 from common import Skip, case, check, check_equal, check_in, main, read_json, run
 
+SMALL = """name: small
+seed: 1
+model: paper
+robots: [{name: cart, start: [0, 0, 0], speed_m_s: 0.5, waypoints: [[2, 0.8], [3, 0]]}]
+antennas: [{name: mobile, reader: r, on: cart, pose: [0, 0, 1], rate_hz: 10, model: paper}]
+tags: [{id: a, position: [1, 2, 1]}, {id: b, position: [2, 2.5, 1]}]
+"""
+
 
 @case
 def version_says_what_was_built_of_what(context):
@@ -165,6 +173,104 @@ def check_takes_every_kind_of_file(context):
     text = context.run_well("check", out / "reads.csv").out
     check_in("kind: reads\n", text, "check reads.csv")
     check_in("tags: 1: ", text, "check reads.csv")
+
+
+def results_of_all_commands(context):
+    """A folder of each command, made quickly, and of each of its files what `check` is to call it."""
+    out = context.folder
+    small = context.write("small.yaml", SMALL)
+    suite = context.write("suite.yaml", "scenario: small.yaml\nmethods: [hyperbola]\nconditions:\n  - {name: exact}\n")
+    sweep = context.write("sweep.yaml", "scenario: small.yaml\nmethods: [hyperbola]\nseeds: 1\n"
+                          "sweep: {grid: {pose.sigma_m: [0.01, 0.02]}}\n")
+    run = context.simulate(small, name="run")
+    for command, folder in (
+            (("run", context.shipped("conveyor")), "conveyor"), (("localize", run), "localized"),
+            (("track", context.shipped("conveyor")), "tracks"),
+            (("coverage", small, "--height", "1", "--step", "1"), "coverage"),
+            (("plan", context.shipped("plan/aisle"), "--no-links"), "plan"),
+            (("bench", suite), "bench"), (("sweep", sweep), "sweep"), (("compare", run, run), "compared")):
+        context.run_well(*command, "--out", out / folder)
+    context.run_well("events", run, "--epcis", out / "epcis.json")
+    context.run_well("events", run, "--epcis", out / "epcis.jsonl")
+    context.write("events.jsonl", context.run_well("events", run, "--json").out)
+    context.write("reads.jsonl", context.run_well("stream", small, "--speed", "0").out)
+    return {"run": "folder of a run", "conveyor": "folder of a run", "localized": "folder of a run",
+            "tracks": "folder of tracks", "coverage": "folder of a coverage", "plan": "folder of a plan",
+            "bench": "folder of a bench", "sweep": "folder of a sweep", "compared": "folder of a comparison"}
+
+
+KINDS_BY_NAME = {
+    "reads.csv": "reads", "antenna_poses.csv": "antenna poses", "corrected_poses.csv": "antenna poses",
+    "estimates.csv": "estimates", "tag_heights.csv": "heights of tags", "truth/tags.csv": "table of the truth",
+    "truth/distances.csv": "table of the truth", "truth/robot_poses.csv": "table of the truth",
+    "truth/antenna_poses.csv": "antenna poses", "summary.json": "summary of a run", "scene.json": "scene of a run",
+    "top_view.json": "top view of the world", "tracks.csv": "tracks of tags", "order.csv": "order of tags",
+    "verdicts.csv": "verdicts on tracks", "tracks.json": "results of tracking",
+    "coverage_tags.csv": "coverage of tags", "coverage_1.00m.csv": "coverage at a height", "coverage.json": "coverage",
+    "plan.json": "plan of antennas", "plan_antennas.csv": "antennas of a plan", "plan_layouts.csv": "layouts of a plan",
+    "plan_positions.csv": "tag positions of a plan", "layout.yaml": "scenario", "bench.json": "results of a bench",
+    "bench.csv": "results of a bench", "tags.csv": "tags of a bench", "points.csv": "points of a sweep",
+    "runs.csv": "runs of a sweep", "results.json": "results of a sweep", "results.sqlite": "database of a sweep",
+    "sweep.json": "suite of a sweep's folder", "compare.csv": "comparison of two runs",
+    "compare.json": "comparison of two runs"}
+
+
+@case
+def check_knows_what_each_command_writes(context):
+    kinds = results_of_all_commands(context)
+    checked = set()
+    for folder, kind in kinds.items():
+        described = json.loads(context.run_well("check", context.folder / folder, "--json").out)
+        check_equal(described["kind"], kind, folder)
+        for path in sorted((context.folder / folder).rglob("*")):
+            name = str(path.relative_to(context.folder / folder))
+            if not path.is_file() or name == ".tagfield" or name.startswith("shards/"):
+                continue
+            kind = {".html": "page", ".svg": "figure"}.get(path.suffix) or KINDS_BY_NAME.get(name)
+            if not check(kind, f"{folder}/{name}: of no kind in this test"):
+                continue
+            said = context.run_well("check", path, "--json").out
+            check_equal(said and json.loads(said)["kind"], kind, f"{folder}/{name}")
+            checked.add(name)
+    check(set(KINDS_BY_NAME) <= checked | {"corrected_poses.csv"}, f"not written: {set(KINDS_BY_NAME) - checked}")
+    for name, kind in (("epcis.json", "EPCIS document"), ("epcis.jsonl", "events of EPCIS, one per line"),
+                       ("events.jsonl", "events, one per line"), ("reads.jsonl", "reads, one per line")):
+        check_equal(json.loads(context.run_well("check", context.folder / name, "--json").out)["kind"], kind, name)
+
+
+@case
+def check_finds_what_is_damaged_in_results(context):
+    order = "passed,rank,tag,stamp_s,sigma_s,before_next\nline,1,a,3.5,0.01,1\n"
+    context.run_well("check", context.write("good.csv", order))
+    for name, text, says in (
+            ("order.csv", order + "line,2,b,inf,0.01,\n", "order.csv:3: stamp_s is 'inf'"),
+            ("cut.csv", order + "line,2,b\n", "cut.csv:3: 3 fields"),
+            ("cut.json", '{"suite": "a", "conditions": [', "is no valid JSON"),
+            ("odd.json", '{"weather": "fine"}', "is JSON with the keys weather, which 'check' doesn't know"),
+            ("infinite.json", '{"scene": 1e999, "antennas": []}', "is no valid JSON"),
+            ("summary.json", '{"scenario": "a", "method": 3, "located": 1, "tags": []}', "summary.json"),
+            ("cut.html", "<!DOCTYPE html>\n<html><body>", "does not end with </html>"),
+            ("cut.jsonl", '{"eventType": "gone", "timestamp": "2020"}\n{"eventType"', "cut.jsonl:2: is no valid JSON"),
+            ("text.sqlite", "point,rung\n", "text.sqlite: ")):
+        result = context.run("check", context.write(name, text))
+        check_equal((result.code, len(result.err.splitlines())), (2, 1), name)
+        check_in(says, result.err, name)
+    # A folder is as good as the files in it.
+    folder = context.folder / "compared"
+    run = context.simulate(context.write("small.yaml", SMALL), "--no-page")
+    context.run_well("compare", run, run, "--out", folder)
+    (folder / "compare.csv").write_text("tag,first_reads,second_reads\na,many,2\n", encoding="utf-8")
+    result = context.run("check", folder)
+    check_equal(result.code, 2, "exit code for a folder with a damaged table")
+    check_in("compare.csv:2: first_reads is 'many'", result.err, "a folder with a damaged table")
+
+
+@case
+def check_prints_numbers_with_their_units(context):
+    text = context.run_well("check", context.source / "profiles/readers/speedway_r420.yaml").out
+    check(re.search(r"^transmit power: [\d.]+ dBm$", text, re.MULTILINE), text)
+    poses = "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n0.1,a,0,0,1,0,0,0,1\n15.6,a,1,0,1,0,0,0,1\n"
+    check_in("duration: 15.5 s\n", context.run_well("check", context.write("poses.csv", poses)).out, "duration")
 
 
 @case

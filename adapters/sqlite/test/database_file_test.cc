@@ -10,6 +10,7 @@
 #include <iterator>
 #include <limits>
 
+#include "adapters/sqlite/table_counts.h"
 #include "tagfield/base/error.h"
 
 namespace tagfield::sqlite {
@@ -80,6 +81,21 @@ TEST_F(DatabaseFileTest, SqliteReadsWhatWasWritten) {
 TEST_F(DatabaseFileTest, SameRowsMakeTheSameBytes) {
   EXPECT_EQ(bytes_of(written("a.sqlite")), bytes_of(written("b.sqlite")));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2) << "a journal is left";
+}
+
+TEST_F(DatabaseFileTest, CountsRowsOfTables) {
+  const std::string file = written("a.sqlite");
+  EXPECT_EQ(table_counts(file), (std::map<std::string, std::int64_t>{{"odd \"table\"", 2}}));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "a file is left beside it";
+}
+
+TEST_F(DatabaseFileTest, RefusesToCountWhatIsNoDatabase) {
+  EXPECT_THROW(table_counts(path("none.sqlite")), Error);
+  std::ofstream(path("text.sqlite")) << "point,rung\n1,2\n";
+  EXPECT_THROW(table_counts(path("text.sqlite")), Error);
+  const std::string file = written("cut.sqlite");
+  fs::resize_file(file, fs::file_size(file) / 2);
+  EXPECT_THROW(table_counts(file), Error);
 }
 
 TEST_F(DatabaseFileTest, RefusesTheSameKeyTwice) {
