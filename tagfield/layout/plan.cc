@@ -338,12 +338,12 @@ class Planner {
       return why_hard(link);
     }
     if (problem_.selection.worth == Worth::kReads) {
-      return fmt::format("heard with {:.1f} dB to spare, but not often enough", link.median_db);
+      return fmt::format("readable with {:.1f} dB to spare, but not often enough", link.median_db);
     }
     return std::isfinite(layout.errors_m[place])
-               ? fmt::format("located to {:.2f} m at best by the antennas that hear it",
+               ? fmt::format("located to {:.2f} m at best by the antennas that read it",
                              layout.errors_m[place])
-               : "heard by too few antennas, or from one direction";
+               : "readable by too few antennas, or from one direction";
   }
 
   void add_sensitivity(AntennaPlan& plan) const {

@@ -31,8 +31,8 @@ using Index = Eigen::Index;
 using Unknowns = Eigen::Matrix<double, 5, 1>;
 using Normal = Eigen::Matrix<double, 5, 5>;
 
-constexpr double kMaxLateness = 10.0;  ///< [s]
-constexpr double kMaxSpeed = 3.0;      ///< Maximum speed of a tag [m/s].
+constexpr double kMaxTagLatency = 10.0;  ///< [s]
+constexpr double kMaxSpeed = 3.0;        ///< Maximum speed of a tag [m/s].
 constexpr Index kFewestToJudge = 30;
 /// Keeps the normal matrix regular where unknowns are not observable.
 constexpr double kRidge = 1e-9;
@@ -193,7 +193,7 @@ RestPoint at(const Followed& of, const Unknowns& unknowns) {
 bool is_possible(const Followed& of, const Unknowns& unknowns) {
   return unknowns.allFinite() &&
          (of.departure == Departure::kMotion ? unknowns.tail<2>().norm() < kMaxSpeed
-                                             : std::abs(unknowns[3]) < kMaxLateness);
+                                             : std::abs(unknowns[3]) < kMaxTagLatency);
 }
 
 /// ln of the likelihood of a position (segments.h), with the antennas moved by the departure. The

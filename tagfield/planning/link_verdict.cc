@@ -93,10 +93,10 @@ std::string disturbed(const LinkInterference& by) {
       *std::max_element(by.by.begin(), by.by.end(),
                         [&](const auto& a, const auto& b) { return power(a) < power(b); });
   if (at_tag) {
-    return fmt::format("the tag hears reader {} too ({} over it, {} needed)", worst.reader,
-                       signed_db(by.capture_db), signed_db(by.required_capture_db));
+    return fmt::format("command not decodable at the tag ({1} over reader {0}, {2} needed)",
+                       worst.reader, signed_db(by.capture_db), signed_db(by.required_capture_db));
   }
-  return fmt::format("reader {} drowns the reply (SINR {}, {} needed)", worst.reader,
+  return fmt::format("reply not decodable beside reader {} (SINR {}, {} needed)", worst.reader,
                      signed_db(by.sinr_db), signed_db(by.required_sinr_db));
 }
 

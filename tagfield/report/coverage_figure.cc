@@ -121,11 +121,11 @@ Drawn words_of(const Coverage& coverage, const CoverageLayer& layer, CoverageQua
   const bool paper = is_by_paper(coverage);
   switch (quantity) {
     case CoverageQuantity::kProbability:
-      return {
-          "probability", "Read probability",
-          fmt::format("How likely a tag there is heard at one moment, over the fading; in {:.0f} "
-                      "% of the area with {:.0f} % or more. Left blank below 1 %.",
-                      100.0 * share_read(layer), 100.0 * kReadProbability)};
+      return {"probability", "Read probability",
+              fmt::format(
+                  "How likely a tag there is readable at one moment, over the fading; in {:.0f} "
+                  "% of the area with {:.0f} % or more. Left blank below 1 %.",
+                  100.0 * share_read(layer), 100.0 * kReadProbability)};
     case CoverageQuantity::kMargin:
       return {"margin", "Margin",
               paper

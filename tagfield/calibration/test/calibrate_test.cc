@@ -104,7 +104,7 @@ void expect_found(const Drive& drive, const AntennaCalibration& found, double si
   EXPECT_EQ(found.phase_sign, drive.sign > 0.0 ? 1 : -1);
 }
 
-TEST(Calibrate, FindsPlaceLatenessOffsetNoiseAndSign) {
+TEST(Calibrate, FindsPlaceLatencyOffsetNoiseAndSign) {
   for (const double sign : {1.0, -1.0}) {
     Drive drive;
     drive.sign = sign;

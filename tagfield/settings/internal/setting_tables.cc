@@ -146,7 +146,7 @@ void add_receiver_settings(std::vector<Setting<AntennaDraft>>& all) {
     all.push_back(number<D>(key, unit, meaning,
                             [member](D& d) -> double& { return d.model.hardware.*member; }));
   };
-  of_hardware("sensitivity_dbm", "dBm", "minimum power of a reply that is heard",
+  of_hardware("sensitivity_dbm", "dBm", "minimum power of a reply that is decoded",
               &ReaderHardware::sensitivity_dbm);
   of_hardware("noise_figure_db", "dB", "of the receiver, its own carrier's leakage included",
               &ReaderHardware::noise_figure_db);
@@ -190,7 +190,7 @@ void add_link_settings(std::vector<Setting<AntennaDraft>>& all) {
 void add_inventory_settings(std::vector<Setting<AntennaDraft>>& all) {
   using D = AntennaDraft;
   all.push_back(word<D>("inventory", {"none", "gen2"},
-                        "one read per update of every tag that is heard, or slots of EPC Gen2",
+                        "one read per update of every tag in reach, or slots of EPC Gen2",
                         [](D& d, std::size_t i) { d.takes_inventory = i == 1; }));
   all.push_back(
       word<D>("session", {"s0", "s1", "s2", "s3"}, "flags that tags keep it in",
