@@ -18,6 +18,7 @@
 #include "apps/tagfield/build_info.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_option.h"
 #include "apps/tagfield/shared_folder.h"
 #include "tagfield/base/error.h"
 #include "tagfield/base/lanes.h"
@@ -233,7 +234,15 @@ Ability mpi(const BuildInfo& build) {
   return {"mpi", true, version.substr(0, version.find('\n')), ""};
 }
 
-Ability python() {
+/// An interpreter of Python, and which modules it finds.
+struct PythonFound {
+  std::string program;  ///< Its path.
+  std::string line;     ///< Path, version and modules, for people.
+  bool has_tagfield = false;
+};
+
+/// Asks an interpreter by its name or path; none if there is none.
+std::optional<PythonFound> python_found(const std::string& program) {
   constexpr const char* kAsk =
       "import importlib, sys\n"
       "sys.path = [path for path in sys.path if path]\n"  // Not to import source folders.
@@ -243,16 +252,35 @@ Ability python() {
       "        print(name, importlib.import_module(name).__version__)\n"
       "    except ImportError:\n"
       "        print(name, \"missing\")\n";
-  const std::optional<std::string> answer = output_of(fmt::format(
-      "exec python3 -c \"{}\"", std::regex_replace(std::string(kAsk), std::regex("\""), "\\\"")));
-  if (!answer) return {"python", false, "no python3", "apt-get install python3"};
+  const std::optional<std::string> answer =
+      output_of(fmt::format("exec {} -c \"{}\"", program,
+                            std::regex_replace(std::string(kAsk), std::regex("\""), "\\\"")));
+  if (!answer) return std::nullopt;
   const std::string line = std::regex_replace(*answer, std::regex("\n"), ", ");
-  if (line.find("tagfield missing") == std::string::npos &&
-      line.find("numpy missing") == std::string::npos) {
-    return {"python", true, line, ""};
+  const auto misses = [&](const char* what) { return line.find(what) != std::string::npos; };
+  return PythonFound{line.substr(0, line.find(' ')), line,
+                     !misses("tagfield missing") && !misses("numpy missing")};
+}
+
+/// Debian's packages are for /usr/bin/python3, which need not be the first on the PATH.
+Ability python() {
+  constexpr const char* kSystem = "/usr/bin/python3";
+  const std::optional<PythonFound> first = python_found("python3");
+  if (first && first->has_tagfield) return {"python", true, first->line, ""};
+  const bool is_system = first && first->program == kSystem;
+  const std::optional<PythonFound> system = is_system ? first : python_found(kSystem);
+  if (!first && !system) return {"python", false, "no python3", "apt-get install python3"};
+  if (system && system->has_tagfield) {
+    return {"python", true,
+            system->line + (first ? "; not the first python3 on the PATH: " + first->line : ""),
+            ""};
   }
-  return {"python", false, line,
-          "apt-get install python3-tagfield, or docs/python.md from sources"};
+  const std::string package = "apt-get install python3-tagfield";
+  if (!first || is_system) {
+    return {"python", false, system->line, package + ", or docs/python.md from sources"};
+  }
+  return {"python", false, first->line + (system ? "; " + system->line : ""),
+          fmt::format("{} for {}; docs/python.md for {}", package, kSystem, first->program)};
 }
 
 std::vector<Ability> abilities(const BuildInfo& build) {
@@ -305,7 +333,7 @@ void add_doctor_command(CLI::App& app, Action& chosen) {
   const auto as_json = std::make_shared<bool>(false);
   CLI::App* command =
       app.add_subcommand("doctor", "Show what works on this machine, and how to get the rest");
-  command->add_flag("--json", *as_json, "JSON for machines instead of text");
+  add_json_option(*command, *as_json);
   command->footer(
       "Nothing is guessed: programs are asked for their versions, a node joins the ROS 2 domain\n"
       "for a moment, and Chromium, if installed, draws in WebGL. Nothing is changed.");

@@ -135,6 +135,18 @@ def doctor_says_what_it_found(context):
     numpy = run(["python3", "-c", "import numpy; print(numpy.__version__)"])
     if numpy.code == 0:
         check_in(f"numpy {numpy.out.strip()}", found["python"]["what"], "python")
+    # Another Python first on the PATH: what that of the system has is found nonetheless.
+    other = context.write("bin/python3", f"#!/bin/sh\necho '{context.folder}/bin/python3 3.99.0'\n"
+                          "for name in tagfield numpy pandas matplotlib; do echo $name missing; done\n")
+    other.chmod(0o755)
+    path = f"{context.folder}/bin:{os.environ['PATH']}"
+    text = subprocess.run([context.tagfield, "doctor", "--json"], cwd=context.folder, check=True, capture_output=True,
+                          text=True, env={**os.environ, "PATH": path}).stdout
+    python = next(finding for finding in json.loads(text)["findings"] if finding["key"] == "python")
+    check_in(f"{context.folder}/bin/python3 3.99.0", python["what"], "the first Python")
+    check_in("/usr/bin/python3 3.", python["what"], "Python of the system")
+    if not python["works"]:
+        check_in("apt-get install python3-tagfield for /usr/bin/python3", python["how_to_get"], "what to do")
     # With an empty PATH.
     text = subprocess.run([context.tagfield, "doctor"], cwd=context.folder, check=True, capture_output=True, text=True,
                           env={"PATH": "/nonexistent", "CYCLONEDDS_URI": os.environ.get("CYCLONEDDS_URI", "")}).stdout
