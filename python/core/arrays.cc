@@ -24,7 +24,7 @@ void register_rows() {
   PYBIND11_NUMPY_DTYPE(CoverageCell, power_dbm, reply_dbm, margin_db, probability, antenna);
   PYBIND11_NUMPY_DTYPE(TagCoverageRow, tag, verdict, nearest, antenna, position_m, nearest_m,
                        power_dbm, reply_dbm, margin_db, probability);
-  PYBIND11_NUMPY_DTYPE(LinkRow, distance_m, tag_dbm, reply_dbm, phase_rad, heard);
+  PYBIND11_NUMPY_DTYPE(LinkRow, distance_m, tag_dbm, reply_dbm, phase_rad, readable);
 }
 
 py::object as_table(const py::array& array, const Categories& categories) {

@@ -46,9 +46,10 @@ class PaperLinksFrom final : public AntennaLinks {
     }
     paper_signals(antenna_.model, {distance_m_, words_, words_, {}}, phase_rad_, rssi_dbm_);
     for (std::size_t i = 0; i < count; ++i) {
-      const bool heard = distance_m_[i] <= antenna_.range_m &&
-                         (!antenna_.sensitivity_dbm || rssi_dbm_[i] >= *antenna_.sensitivity_dbm);
-      rows[i] = {distance_m_[i], kUnknown, rssi_dbm_[i], phase_rad_[i], heard};
+      const bool readable =
+          distance_m_[i] <= antenna_.range_m &&
+          (!antenna_.sensitivity_dbm || rssi_dbm_[i] >= *antenna_.sensitivity_dbm);
+      rows[i] = {distance_m_[i], kUnknown, rssi_dbm_[i], phase_rad_[i], readable};
     }
   }
 
@@ -175,12 +176,12 @@ void bind_links(py::module_& module) {
       .def_readonly("tag_dbm", &LinkRow::tag_dbm, "At the chip [dBm]; NaN by the paper's model.")
       .def_readonly("reply_dbm", &LinkRow::reply_dbm, "At the reader's port: its RSSI [dBm].")
       .def_readonly("phase_rad", &LinkRow::phase_rad, "In [0, 2π), growing with distance [rad].")
-      .def_readonly("heard", &LinkRow::heard, "Whether tag and reader have enough power.")
+      .def_readonly("readable", &LinkRow::readable, "Whether tag and reader have enough power.")
       .def("__repr__", [](const LinkRow& row) {
         return py::str(
                    "LinkState(distance_m={:.3f}, tag_dbm={:.2f}, reply_dbm={:.2f}, "
-                   "phase_rad={:.4f}, heard={})")
-            .format(row.distance_m, row.tag_dbm, row.reply_dbm, row.phase_rad, row.heard);
+                   "phase_rad={:.4f}, readable={})")
+            .format(row.distance_m, row.tag_dbm, row.reply_dbm, row.phase_rad, row.readable);
       });
   py::class_<AntennaLinks>(
       module, "Link",
@@ -190,7 +191,7 @@ void bind_links(py::module_& module) {
            "The link to a tag at x, y, z [m, world], as a LinkState.")
       .def("batch", &batch, py::arg("positions_m"),
            "Links to tags at positions_m (N, 3) [m, world], as a table of N rows: distance_m,\n"
-           "tag_dbm, reply_dbm, phase_rad, heard.");
+           "tag_dbm, reply_dbm, phase_rad, readable.");
   module.def("link", &links_from, py::arg("loaded"), py::arg("antenna"), py::arg("tag"),
              py::arg("time_s"), py::arg("tag_rpy_rad"));
 }

@@ -100,15 +100,15 @@ constexpr double kAny = -1e15;
 void take_heights(const Asked& asked, KnownBeforehand& known) {
   const auto of_all = asked.number("tag_height_m", kAny);
   const auto of_tag = asked.numbers("tag_heights_m");
-  const auto side = asked.get<std::string>("height");
+  const auto side = asked.get<std::string>("vertical_side");
   if (!of_all && !of_tag && !side) return;
-  if (of_all && side) throw Error("localize: tag_height_m and height exclude each other");
+  if (of_all && side) throw Error("localize: tag_height_m and vertical_side exclude each other");
   known.heights = {};
   known.heights.of_all = of_all;
   if (of_tag) known.heights.of_tag = *of_tag;
   if (!side) return;
   if (*side != "above" && *side != "below") {
-    throw Error("localize: height is '" + *side + "', expected 'above' or 'below'");
+    throw Error("localize: vertical_side is '" + *side + "', expected 'above' or 'below'");
   }
   known.heights.estimated = *side == "above" ? HeightSide::kAbove : HeightSide::kBelow;
 }

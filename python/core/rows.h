@@ -110,7 +110,7 @@ struct TagCoverageRow {
 
 struct LinkRow {
   double distance_m, tag_dbm, reply_dbm, phase_rad;
-  bool heard;
+  bool readable;
 };
 
 }  // namespace tagfield::python

@@ -70,7 +70,7 @@ def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[C
 
     Raises Error for the name of a built-in method.
 
-        @tagfield.method("strongest", "where the antenna heard the tag best")
+        @tagfield.method("strongest", "where the RSSI was highest")
         def strongest(problem, tag, samples):
             return samples["position_m"][samples["rssi_dbm"].argmax(), :2]
     """

@@ -113,7 +113,7 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
 
     tag_height_m: height of all tags [m, world].
     tag_heights_m: heights [m, world] by tag.
-    height: "above" or "below": unknown heights are estimated, on that side of the antennas.
+    vertical_side: "above" or "below": unknown heights are estimated, on that side of the antennas.
     side: side of the antennas' path on which tags can be: "left", "right" (of the motion), "+x", "-x",
         "+y" or "-y".
     box_m: x0, y0, x1, y1 [m, world] of the area in which tags can be.
@@ -206,14 +206,16 @@ def calibrate(reads: Any, poses: Any, tags: Mapping[str, Any], *, phase_centre_s
 
 
 _LATEST_NS = 2**63 - 1
-_HEIGHTS = {"tag_height_m", "tag_heights_m", "height", "offset_rad", "offsets_rad"}
+_HEIGHTS = {"tag_height_m", "tag_heights_m", "vertical_side", "offset_rad", "offsets_rad"}
 _KNOWN = _HEIGHTS | {"side", "box_m", "reference_tags", "pose_sigma_m", "pose_yaw_sigma_deg",
                      "pose_time_constant_s", "world_sigma_m", "max_expected_error_m", "pi_ambiguity"}
-_TRACK = _HEIGHTS - {"height"} | {"method", "lane", "bidirectional", "line", "speed_m_s", "acceleration_noise"}
+_TRACK = _HEIGHTS - {"vertical_side"} | {"method", "lane", "bidirectional", "line", "speed_m_s", "acceleration_noise"}
 
 
 def _refuse_unknown(function: str, given: Mapping[str, Any], known: set[str]) -> None:
     for key in given:
+        if key == "height" and "vertical_side" in known:
+            raise TypeError(f"{function}(): 'height' is now 'vertical_side', as --vertical-side of the command")
         if key not in known:
             raise TypeError(f"{function}() has no keyword '{key}'; these are: {', '.join(sorted(known))}")
 

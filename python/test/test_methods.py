@@ -22,7 +22,7 @@ def run(scenario):
     return scenario.run(seed=1)
 
 
-@tagfield.method("strongest", "where the antenna heard the tag best")
+@tagfield.method("strongest", "where the RSSI was highest")
 def strongest(problem, tag, samples):
     return samples["position_m"][samples["rssi_dbm"].argmax(), :2]
 
@@ -104,7 +104,9 @@ def test_keywords_are_checked(run, known, said):
 
 def test_what_is_known_is_checked(run):
     with pytest.raises(tagfield.Error, match="above"):
-        tagfield.localize(run.reads, run.poses, height="beside")
+        tagfield.localize(run.reads, run.poses, vertical_side="beside")
+    with pytest.raises(TypeError, match="'height' is now 'vertical_side'"):
+        tagfield.localize(run.reads, run.poses, height="above")
     with pytest.raises(TypeError, match="tag_hight"):
         tagfield.localize(run.reads, run.poses, tag_hight=1)
     with pytest.raises(tagfield.Error, match="tag_height_m"):

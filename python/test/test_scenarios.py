@@ -72,7 +72,7 @@ def test_free_space_falls_by_the_square():
     assert near.distance_m == pytest.approx(2)
     assert near.tag_dbm - far.tag_dbm == pytest.approx(20 * math.log10(2), abs=1e-9)
     assert near.reply_dbm - far.reply_dbm == pytest.approx(40 * math.log10(2), abs=1e-9)
-    assert near.heard and not link(200, 0, 1).heard
+    assert near.readable and not link(200, 0, 1).readable
 
 
 def test_batch_is_the_same_as_one_by_one():
@@ -82,8 +82,8 @@ def test_batch_is_the_same_as_one_by_one():
         rows = link.batch(places)
         for place, row in zip(places, rows):
             one = link(*place)
-            assert (one.distance_m, one.reply_dbm, one.phase_rad, one.heard) == (
-                row["distance_m"], row["reply_dbm"], row["phase_rad"], row["heard"])
+            assert (one.distance_m, one.reply_dbm, one.phase_rad, one.readable) == (
+                row["distance_m"], row["reply_dbm"], row["phase_rad"], row["readable"])
     with pytest.raises(tagfield.Error, match=r"\(N, 3\)"):
         link.batch(np.zeros(3))
     with pytest.raises(tagfield.Error, match="finite"):
@@ -94,7 +94,7 @@ def test_world_in_python_is_in_the_way():
     world = tagfield.World().floor()
     world.box("screen", size_m=(0.02, 3, 3), position_m=(1, 0, 1.5), material="metal")
     behind = portal(world=world)
-    assert not behind.link()(2, 0, 1).heard
+    assert not behind.link()(2, 0, 1).readable
     explanation = behind.explain(tag="tag1")
     assert not explanation.read
     assert "screen (metal)" in explanation.verdict
@@ -168,7 +168,7 @@ def test_mesh_is_a_wall():
     world = tagfield.World()
     world.mesh("metal_sheet", [[1, -2, 0], [1, 2, 0], [1, 2, 3], [1, -2, 3]], [[0, 1, 2], [0, 2, 3]],
                material="metal")
-    assert not portal(world=world).link()(2, 0, 1).heard
+    assert not portal(world=world).link()(2, 0, 1).readable
     with pytest.raises(tagfield.Error, match="vertex 9"):
         tagfield.World().mesh("m", np.zeros((3, 3)), [[0, 1, 9]])
     with pytest.raises(tagfield.Error, match="triangles has 1.7, expected whole numbers"):
