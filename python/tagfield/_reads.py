@@ -139,7 +139,8 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
     listed = _listed("localize", known)
     located = called("localize", _core.localize, _reads_argument(of_reads), _poses_argument(poses),
                      _truth_argument(truth), name, own, pairs, loaded, listed, threads_of(threads))
-    unread = _unread(listed.get("reference_tags") or {}, of_reads)
+    unread = [warning for keyword in ("reference_tags", "tag_heights_m")
+              for warning in _unread(keyword, listed.get(keyword) or {}, of_reads)]
     return Localization({**located, "warnings": [*unread, *located["warnings"]]})
 
 
@@ -235,11 +236,11 @@ def _loaded_of(function: str, scenario: Any) -> _core.Loaded | None:
     return scenario._loaded
 
 
-def _unread(references: Mapping[str, Any], reads: Table) -> list[str]:
-    """Warnings about reference tags that were not read."""
+def _unread(keyword: str, by_tag: Mapping[str, Any], reads: Table) -> list[str]:
+    """Warnings about tags of a keyword that were not read."""
     known = reads.categories["tag"]
-    return [f"localize: reference_tags: there are no reads of tag '{tag}'{suggestion(tag, known)}"
-            for tag in references if not reads._are("tag", [tag]).any()]
+    return [f"localize: {keyword}: there are no reads of tag '{tag}'{suggestion(tag, known)}"
+            for tag in by_tag if not reads._are("tag", [tag]).any()]
 
 
 def _listed(function: str, known: Mapping[str, Any]) -> dict[str, Any]:

@@ -170,6 +170,7 @@ class Simulation:
                  outlets: list) -> None:
         self.scenario = scenario
         self.robot = robot
+        self._has_policy = policy is not None
         self._core = _core.Simulation(scenario._loaded, seed, outlets, robot,
                                       None if policy is None else _checked(policy))
         self._taken: dict[str, Table] = self._core.take()
@@ -213,7 +214,12 @@ class Simulation:
         return Truth(taken["true_antennas"], taken["true_robots"], taken["true_tags"], taken["true_distances"])
 
     def drive(self, forward_m_s: float, turn_rad_s: float) -> None:
-        """Commands the robot's forward velocity and turn rate from now on; its limits apply."""
+        """Commands the robot's forward velocity and turn rate from now on; its limits apply.
+
+        Not with a policy, which decides on them at each step.
+        """
+        if self._has_policy:
+            raise _core.Error("drive: this robot is driven by its policy, expected a simulation without one")
         self._core.drive(number("drive: forward_m_s", forward_m_s), number("drive: turn_rad_s", turn_rad_s))
 
     @property

@@ -169,6 +169,8 @@ def test_what_is_known_of_tags_is_checked(run):
     with pytest.warns(tagfield.TagfieldWarning, match=r"reference_tags: there are no reads of tag 'tga3' \(did you"):
         found = tagfield.localize(run.reads, run.poses, "trilateration", reference_tags={"tga3": place}, tag_height_m=1)
     assert "tga3" in found.warnings[0]
+    with pytest.warns(tagfield.TagfieldWarning, match=r"tag_heights_m: there are no reads of tag 'tga3' \(did you"):
+        tagfield.localize(run.reads, run.poses, "trilateration", tag_heights_m={"tga3": 0.8})
     for ask, said in (
             (lambda: tagfield.localize(run.reads, run.poses, reference_tags={"tag3": (1, 2)}),
              r"localize: reference_tags: 'tag3' is \(1, 2\), expected 3 finite numbers"),

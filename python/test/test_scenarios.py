@@ -428,6 +428,8 @@ def test_policy_drives():
     assert np.hypot(*turned[:2]) < 1e-9
     assert 0.2 < turned[2] <= 0.5 + 1e-9
     assert asked == sorted(asked) and len(asked) == 100
+    with pytest.raises(tagfield.Error, match="drive: this robot is driven by its policy"):
+        sim.drive(0.3, 0)
     with pytest.raises(tagfield.Error, match="needs robot"):
         warehouse().simulation(policy=policy)
     with pytest.raises(tagfield.Error, match="robot"):
