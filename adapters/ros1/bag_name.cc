@@ -27,7 +27,8 @@ bool is_bag(const std::string& path) {
   const std::filesystem::path name = path;
   const bool named = name.extension() == ".bag" ||
                      (name.extension() == ".active" && name.stem().extension() == ".bag");
-  return named || is_ros2_recording(path) || first_bytes(path, kMagic.size()) == kMagic;
+  return named || !decompressor_of(path).empty() || is_ros2_recording(path) ||
+         first_bytes(path, kMagic.size()) == kMagic;
 }
 
 }  // namespace tagfield

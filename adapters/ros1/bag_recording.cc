@@ -21,6 +21,8 @@
 namespace tagfield {
 namespace {
 
+const UnitNames kReadNames = {"the carrier of a read", "the phase of a read", "reads", ""};
+
 template <typename Stamped>
 void sort_by_stamp(std::vector<Stamped>& list) {
   std::stable_sort(list.begin(), list.end(),
@@ -171,16 +173,26 @@ PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRec
   return {found.source, found.frame, tidy_poses(std::move(found.poses))};
 }
 
+void warn_of_unused_frequency(const std::string& path, Diagnostics& diagnostics) {
+  diagnostics.warn({path, 0}, "--frequency has no effect: its reads state their carriers");
+}
+
 GoThrough going_through(const std::string& path, std::optional<double> frequency_hz,
                         Diagnostics& diagnostics) {
+  const std::string decompressor = decompressor_of(path);
+  if (!decompressor.empty()) {
+    fail({path, 0},
+         fmt::format("is compressed as a whole: decompress it first ({} {})", decompressor, path));
+  }
   if (is_ros2_recording(path)) {
+    if (frequency_hz) warn_of_unused_frequency(path, diagnostics);
     return [files = std::make_shared<Ros2Files>(path, diagnostics)](
                const BagReadSink& sink, const std::function<void(double)>& on_progress,
                Diagnostics& of_this_time) {
       return sweep_ros2(*files, sink, on_progress, of_this_time);
     };
   }
-  require_whole_bag(path);
+  require_whole_bag(path, diagnostics);
   return
       [path, frequency_hz](const BagReadSink& sink, const std::function<void(double)>& on_progress,
                            Diagnostics& of_this_time) {
@@ -197,6 +209,7 @@ BagRecording read_bag(const std::string& path, const BagOptions& options,
   const BagReadSink sink = held.sink();
   const GoThrough go_through = going_through(path, options.frequency_hz, diagnostics);
   BagContent content = go_through(sink, options.on_progress, diagnostics);
+  held.units().tell(path, kReadNames, diagnostics);
   BagRecording recording;
   held.give(content, recording);
   if (held.overview()) recording.unreported = unreported_reads(path, go_through, held);

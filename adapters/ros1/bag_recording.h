@@ -69,8 +69,8 @@ struct BagRecording {
   double duration_s = 0.0;  ///< From the first stamp of reads, poses and truth to the last.
 };
 
-/// Whether a path is meant to be a bag: judging by its name (….bag, ….bag.active, ….mcap, ….db3),
-/// or its first bytes, or as a folder that rosbag2 recorded.
+/// Whether a path is meant to be a bag: judging by its name (….bag, ….bag.active, ….mcap, ….db3,
+/// or one of these compressed), or its first bytes, or as a folder that rosbag2 recorded.
 bool is_bag(const std::string& path);
 
 /// Reads a bag, selecting topics by message type, whatever their names:

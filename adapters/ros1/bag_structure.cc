@@ -147,18 +147,23 @@ void require_version_1(const Header& header) {
   if (header.number<std::uint32_t>("ver") != 1) throw Damage{"a record is of another version"};
 }
 
-void check_index(const Header& header, std::string_view data,
-                 const std::vector<std::uint32_t>& begins) {
+/// Returns how many of its messages were received at time 0.
+std::size_t check_index(const Header& header, std::string_view data,
+                        const std::vector<std::uint32_t>& begins) {
   require_version_1(header);
   (void)header.number<std::uint32_t>("conn");
   const auto count = header.number<std::uint32_t>("count");
   if (data.size() != std::uint64_t{count} * kIndexEntry) throw Damage{"an index has a wrong size"};
+  std::size_t at_zero = 0;
   while (!data.empty()) {
-    const auto offset = number_in<std::uint32_t>(cut(data, kIndexEntry).substr(8));
-    if (!std::binary_search(begins.begin(), begins.end(), offset)) {
+    const std::string_view entry = cut(data, kIndexEntry);
+    if (!std::binary_search(begins.begin(), begins.end(),
+                            number_in<std::uint32_t>(entry.substr(8)))) {
       throw Damage{"the index points at no message"};
     }
+    if (number_in<std::uint64_t>(entry.substr(0, 8)) == 0) ++at_zero;
   }
+  return at_zero;
 }
 
 /// Sequential access to records.
@@ -214,6 +219,8 @@ class Walk {
     }
     return true;
   }
+  /// Number of messages received at time 0.
+  [[nodiscard]] std::size_t at_zero() const { return at_zero_; }
 
  private:
   void check_chunk_info(const Header& header, std::string_view data) const {
@@ -234,7 +241,7 @@ class Walk {
         begins_ = message_begins(records_of(header, data, unpacked_));
         break;
       case kIndex:
-        check_index(header, data, begins_);
+        at_zero_ += check_index(header, data, begins_);
         break;
       case kConnection:
         ++connections_;
@@ -249,6 +256,7 @@ class Walk {
     }
   }
 
+  std::size_t at_zero_ = 0;
   std::uint64_t index_position_ = 1;  ///< Not known yet; matches no record.
   std::uint64_t said_connections_ = 0;
   std::uint64_t said_chunks_ = 0;
@@ -260,10 +268,18 @@ class Walk {
   std::string unpacked_;
 };
 
-bool look_through(const std::string& path) {
+bool look_through(const std::string& path, Diagnostics& diagnostics) {
   RecordFile file(path);
   (void)file.read(kFirstLine.size());
-  return Walk().through(file);
+  Walk walk;
+  const bool finished = walk.through(file);
+  if (walk.at_zero() > 0) {
+    diagnostics.warn({path, 0},
+                     fmt::format("{} of its messages were received at time 0 and are left out, as "
+                                 "rosbag takes that for no time: expected 1 ns or later",
+                                 walk.at_zero()));
+  }
+  return finished;
 }
 
 void require_bag(const std::string& path) {
@@ -284,11 +300,11 @@ void require_bag(const std::string& path) {
 
 }  // namespace
 
-void require_whole_bag(const std::string& path) {
+void require_whole_bag(const std::string& path, Diagnostics& diagnostics) {
   require_bag(path);
   bool finished = false;
   try {
-    finished = look_through(path);
+    finished = look_through(path, diagnostics);
   } catch (const Damage& damage) {
     fail({path, 0},
          fmt::format("is cut off or damaged ({}); 'rosbag reindex' may recover the intact part",

@@ -6,10 +6,12 @@
 
 #include <string>
 
+#include "tagfield/base/error.h"
+
 namespace tagfield {
 
-/// Throws Error unless the file is a finished bag of version 2.0, all its records lie within it,
-/// and its index points at messages.
-void require_whole_bag(const std::string& path);
+/// Warns of messages received at time 0, which rosbag leaves out. Throws Error unless the file is a
+/// finished bag of version 2.0, all its records lie within it, and its index points at messages.
+void require_whole_bag(const std::string& path, Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -113,10 +113,20 @@ class Sweep {
       content_.forget_unwanted();
       if (on_progress) on_progress(++done / size);
     }
+    require_messages();
     return std::move(content_);
   }
 
  private:
+  /// Whether there are any of reads, even of updates in which no tag was read.
+  void require_messages() const {
+    for (const auto& [topic, number] : numbers_) {
+      const Kind kind = of_topic_.at(topic);
+      if (kind == Kind::kReads || kind == Kind::kArray) return;
+    }
+    fail({path_, 0}, "has no reads: there are no messages on the topics for them");
+  }
+
   void choose_kinds() {
     rosbag::View all(bag_);
     const std::vector<const rosbag::ConnectionInfo*> connections = all.getConnections();
@@ -136,6 +146,9 @@ class Sweep {
       require_version(*connection, *kind);
       kinds_[connection->id] = *kind;
       of_topic_[connection->topic] = *kind;
+    }
+    if (has_reads && frequency_hz_) {
+      diagnostics_.warn({path_, 0}, "--frequency has no effect: its reads state their carriers");
     }
     if (!has_reads && !frequency_hz_) {
       diagnostics_.warn({path_, 0}, fmt::format("rfid_sensor/TagArray has no frequency: {:g} MHz "

@@ -6,14 +6,21 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "tagfield/base/error.h"
 
 namespace tagfield {
 namespace {
+
+/// As for poses in a table (docs/files.md): a straight line may bridge more time only where the
+/// antenna stays in place.
+constexpr Duration kMaxGap = std::chrono::milliseconds(500);
+constexpr double kStillDistance_m = 0.01;
 
 /// tf2 interprets stamp 0 as "the latest"; so all stamps are counted from a second before the
 /// first.
@@ -79,6 +86,19 @@ RigidTransform from_message(const geometry_msgs::Transform& transform) {
 struct Edge {
   std::vector<StampedTransform> transforms;
   std::size_t handed_over = 0;
+
+  /// The transforms before and after `stamp` if they are too far apart in time.
+  [[nodiscard]] std::optional<std::pair<RigidTransform, RigidTransform>> gap_at(Time stamp) const {
+    const auto after = std::lower_bound(
+        transforms.begin(), transforms.end(), stamp,
+        [](const StampedTransform& transform, Time time) { return transform.stamp < time; });
+    if (after == transforms.begin() || after == transforms.end() || after->stamp == stamp) {
+      return std::nullopt;
+    }
+    const auto before = std::prev(after);
+    if (after->stamp - before->stamp <= kMaxGap) return std::nullopt;
+    return std::pair(before->X_PC, after->X_PC);
+  }
 };
 
 /// tf2's buffer, filled only up to the requested stamp: it searches the neighbours of a stamp from
@@ -118,6 +138,21 @@ class RisingBuffer {
     }
   }
 
+  /// Whether the pose of frame B in frame F would be a straight line across a gap of a transform on
+  /// the way from B to F, in which that moved B.
+  [[nodiscard]] bool bridges_gap(const std::string& F, const std::string& B, Time stamp) const {
+    std::string frame = B;
+    // Terminates even for a loop, which tf2 refuses.
+    for (std::size_t i = 0; i < parents_.size() && frame != F; ++i) {
+      const auto parent = parents_.find(frame);
+      if (parent == parents_.end()) return false;
+      const auto edge = edges_.find(frame);
+      if (edge != edges_.end() && moves_in_gap(edge->second, frame, B, stamp)) return true;
+      frame = parent->second;
+    }
+    return false;
+  }
+
   /// X_FB of frame B in frame F.
   [[nodiscard]] std::optional<RigidTransform> find(const std::string& F, const std::string& B,
                                                    Time stamp) const {
@@ -129,6 +164,17 @@ class RisingBuffer {
   }
 
  private:
+  /// Whether an edge to child frame C moves the origin of B across a gap.
+  [[nodiscard]] bool moves_in_gap(const Edge& edge, const std::string& C, const std::string& B,
+                                  Time stamp) const {
+    const auto gap = edge.gap_at(stamp);
+    if (!gap) return false;
+    const auto X_CB = find(C, B, stamp);
+    if (!X_CB) return false;
+    const Eigen::Vector3d& p_CB = X_CB->translation;
+    return (gap->second * p_CB - gap->first * p_CB).norm() > kStillDistance_m;
+  }
+
   void hand_over(const StampedTransform& transform) {
     buffer_.setTransform(to_message(transform, clock_(transform.stamp)), "bag");
   }
@@ -192,7 +238,7 @@ TransformedPoses poses_from_transforms(std::vector<StampedTransform> transforms,
     ++counts[update.antenna];
     for (TransformedPoses& in_frame : in_frames) {
       const auto X_FA = buffer.find(in_frame.frame, update.frame, update.stamp);
-      if (!X_FA) continue;
+      if (!X_FA || buffer.bridges_gap(in_frame.frame, update.frame, update.stamp)) continue;
       if (source_of(buffer, in_frame.frame, update.frame) == "odometry") {
         in_frame.source = "odometry";
       }

@@ -14,7 +14,9 @@ namespace tagfield {
 struct TransformedPoses {
   std::string frame;   ///< The fixed frame, "" if none can express the antennas.
   std::string source;  ///< "odometry" if based on a frame "odom" and no "map", else "tf".
-  std::vector<AntennaPose> poses;  ///< One per update for which a pose is known, by stamp.
+  /// One per update for which a pose is known, by stamp; none in gaps of over 0.5 s between
+  /// transforms that moved the antenna.
+  std::vector<AntennaPose> poses;
 };
 
 /// The poses of the antennas at their updates, interpolated by tf2 at exactly those stamps, in the

@@ -56,6 +56,8 @@ void HeldReads::give(BagContent& content, BagRecording& recording) {
 }
 
 void HeldReads::add(TagRead&& read, const std::string& frame) {
+  units_.add_carrier(read.frequency_hz);
+  units_.add_phase(read.phase_rad);
   if (overview_) return tagfield::add(read, *overview_);
   if (updates_.empty() || updates_.back().stamp != read.stamp ||
       updates_.back().antenna != read.antenna) {

@@ -12,6 +12,7 @@
 
 #include "adapters/ros1/bag_content.h"
 #include "adapters/ros1/bag_recording.h"
+#include "tagfield/files/units_seen.h"
 
 namespace tagfield {
 
@@ -32,6 +33,7 @@ class HeldReads {
   void give(BagContent& content, BagRecording& recording);
   [[nodiscard]] const std::optional<ReadOverview>& overview() const { return overview_; }
   [[nodiscard]] bool has_distances() const { return has_distances_; }
+  [[nodiscard]] const UnitsSeen& units() const { return units_; }
   [[nodiscard]] std::size_t resets() const { return resets_; }
 
  private:
@@ -43,6 +45,7 @@ class HeldReads {
   std::size_t most_;
   std::size_t resets_ = 0;
   bool has_distances_ = false;
+  UnitsSeen units_;
   std::vector<TagRead> reads_;
   std::vector<TrueDistance> distances_;
   std::vector<RecordedUpdate> updates_;  ///< At the stamps of reads.

@@ -36,6 +36,7 @@ Take decoded_for(void (*take)(const Message&, const MessageLocation&, BagContent
   };
 }
 
+constexpr std::string_view kEncoding = "cdr";
 constexpr std::string_view kReadsType = "tagfield_msgs/msg/TagReads";
 
 bool ends_in(const std::string& text, std::string_view end) {
@@ -45,7 +46,7 @@ bool ends_in(const std::string& text, std::string_view end) {
 
 /// How the messages of a topic are processed; null for ignored topics.
 Take take_of(const RecordedTopic& topic) {
-  if (topic.encoding != "cdr") return nullptr;
+  if (topic.encoding != kEncoding) return nullptr;
   const std::string& type = topic.type;
   const std::string name = last_name(topic.name);
   if (type == kReadsType) return decoded_for(&take_reads<ros2::tagfield_msgs::TagReads>);
@@ -78,10 +79,11 @@ class Ros2Sweep {
       takes.push_back(take_of(topic));
       wanted.push_back(takes.back() ? 1 : 0);
       places.push_back({path, topic.name, 0});
-      has_reads_ = has_reads_ || (takes.back() && topic.type == kReadsType);
+      if (topic.type == kReadsType) take_note(topic);
     }
     const auto take = [&](std::size_t topic, std::string_view bytes, double share) {
       ++places[topic].number;
+      has_reads_ = has_reads_ || file.topics()[topic].type == kReadsType;
       takes[topic](bytes, places[topic], content_, diagnostics_);
       content_.forget_unwanted();
       on_progress(share);
@@ -89,12 +91,22 @@ class Ros2Sweep {
     file.read(wanted, take, diagnostics_);
   }
   [[nodiscard]] bool has_reads() const { return has_reads_; }
+  [[nodiscard]] const std::string& why_without_reads() const { return why_without_reads_; }
   [[nodiscard]] BagContent content() { return std::move(content_); }
 
  private:
+  /// Of a topic of reads that may turn out to have none.
+  void take_note(const RecordedTopic& topic) {
+    why_without_reads_ = topic.encoding == kEncoding
+                             ? fmt::format("there are no messages on {}", topic.name)
+                             : fmt::format("{} is encoded as '{}', expected '{}'", topic.name,
+                                           topic.encoding, kEncoding);
+  }
+
   Diagnostics& diagnostics_;
   BagContent content_;
-  bool has_reads_ = false;
+  bool has_reads_ = false;  ///< Messages with them, even if no tag was read.
+  std::string why_without_reads_ = fmt::format("no topic of type {}", kReadsType);
 };
 
 }  // namespace
@@ -121,7 +133,7 @@ BagContent sweep_ros2(Ros2Files& files, const BagReadSink& sink,
     });
   }
   if (!sweep.has_reads()) {
-    fail({files.path(), 0}, "has no reads: no topic of type tagfield_msgs/msg/TagReads");
+    fail({files.path(), 0}, "has no reads: " + sweep.why_without_reads());
   }
   return sweep.content();
 }

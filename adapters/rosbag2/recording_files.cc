@@ -7,6 +7,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <utility>
 
 #include "tagfield/scenario/yaml_map.h"
@@ -106,6 +107,17 @@ std::vector<std::string> files_by_metadata(const fs::path& folder, Diagnostics& 
 }
 
 }  // namespace
+
+std::string decompressor_of(const std::string& path) {
+  static const std::map<std::string, std::string> kDecompressors = {
+      {".zst", "zstd -d"}, {".zstd", "zstd -d"}, {".gz", "gunzip"},
+      {".bz2", "bunzip2"}, {".xz", "xz -d"},     {".lz4", "lz4 -d"}};
+  const fs::path name = path;
+  const std::string inner = name.stem().extension().string();
+  if (inner != ".bag" && inner != ".mcap" && inner != ".db3") return "";
+  const auto found = kDecompressors.find(name.extension().string());
+  return found == kDecompressors.end() ? "" : found->second;
+}
 
 bool is_ros2_recording(const std::string& path) {
   std::error_code error;

@@ -16,6 +16,10 @@ namespace tagfield {
 /// (….mcap, ….db3) or its first bytes, or a folder with a metadata.yaml or such files.
 bool is_ros2_recording(const std::string& path);
 
+/// The command that decompresses a recording of ROS 1 or 2 that is compressed as a whole, judging
+/// by its name (….bag.gz, ….db3.zstd): "zstd -d"; "" for other files.
+std::string decompressor_of(const std::string& path);
+
 /// The file itself; or those of a folder, in the order of its metadata.yaml. Without that, as after
 /// an interrupted recording, they are in the order of the numbers in their names, with a warning.
 /// Throws Error if metadata.yaml can't be read or names files outside of the folder or files

@@ -76,9 +76,31 @@ std::string frames_of_reads(const BagRecording& bag) {
   return fmt::format("'{}'", fmt::join(antennas, "', '"));
 }
 
+std::string no_transforms(const BagOptions& options) {
+  return fmt::format("no transforms (tf) from '{}' to the frames of the reads",
+                     fmt::join(options.frames, "', '"));
+}
+
+/// A frame that nothing is found in would otherwise go unnoticed where there is a truth.
+void refuse_useless_frame(const BagArguments& arguments, const BagOptions& options,
+                          const BagRecording& bag) {
+  const std::string& frame = arguments.ros.frame;
+  if (frame.empty() || bag.unreported || bag.reads.empty()) return;
+  if (bag.believed.source == "given") {
+    fail({arguments.bag, 0},
+         fmt::format("its poses come with its reads, in '{}': --frame is for poses by tf",
+                     bag.believed.frame));
+  }
+  if (bag.believed.poses.empty() && !bag.truth.antenna_poses.empty()) {
+    fail({arguments.bag, 0},
+         fmt::format("--frame {}: there are {}", frame, no_transforms(options)));
+  }
+}
+
 /// Stores the requested poses in `poses` and `other`.
 void choose_poses(const BagArguments& arguments, const BagOptions& options, BagRecording& bag,
                   LoadedRecording& recording) {
+  refuse_useless_frame(arguments, options, bag);
   const NamedPoses truth = {"true", bag.truth.antenna_poses};
   NamedPoses believed = {bag.believed.source, std::move(bag.believed.poses)};
   const std::string& wanted = arguments.poses;
@@ -95,10 +117,8 @@ void choose_poses(const BagArguments& arguments, const BagOptions& options, BagR
     fail({arguments.bag, 0}, "has no true antenna poses (tagfield_msgs/AntennaTruth)");
   }
   fail({arguments.bag, 0},
-       fmt::format("has no poses of the antennas {}: {}no transforms (tf) from '{}' to the frames "
-                   "of the reads",
-                   frames_of_reads(bag), automatic ? "no tagfield_msgs/AntennaTruth and " : "",
-                   fmt::join(options.frames, "', '")));
+       fmt::format("has no poses of the antennas {}: {}{}", frames_of_reads(bag),
+                   automatic ? "no tagfield_msgs/AntennaTruth and " : "", no_transforms(options)));
 }
 
 BagRecording bag_with_progress(const std::string& path, BagOptions options,
@@ -162,11 +182,18 @@ void take_unreported(const BagArguments& arguments, const std::string& out,
                                recording.poses.name));
 }
 
-/// What a recording lacks is mostly in the part that is cut off, of which only a warning would
+bool is_of_lost_part(const std::string& warning) {
+  const auto says = [&warning](const char* what) {
+    return warning.find(what) != std::string::npos;
+  };
+  return says("cut off") || says("received at time 0") || says("its compression is unknown");
+}
+
+/// What a recording lacks is mostly in the part that can't be read, of which only a warning would
 /// tell.
 void fail_by_damage(const std::string& bag, const Error& error, const Diagnostics& diagnostics) {
   for (const std::string& warning : diagnostics.warnings()) {
-    if (warning.rfind(bag + ": ", 0) != 0 || warning.find("cut off") == std::string::npos) continue;
+    if (warning.rfind(bag + ": ", 0) != 0 || !is_of_lost_part(warning)) continue;
     throw Error(fmt::format("{} ({})", error.what(), warning.substr(bag.size() + 2)));
   }
 }

@@ -13,6 +13,7 @@
 #include "tagfield/base/read_range.h"
 #include "tagfield/base/units.h"
 #include "tagfield/files/csv.h"
+#include "tagfield/files/units_seen.h"
 
 namespace tagfield {
 
@@ -56,63 +57,6 @@ ReadColumns columns_of(const CsvTable& table) {
   columns.reader = if_there("reader");
   return columns;
 }
-
-/// ": is it in MHz?" where a unit makes a UHF carrier of it, else "".
-std::string likely_unit(double carrier) {
-  constexpr double kLeast_hz = 3e8;
-  constexpr double kMost_hz = 3e9;
-  constexpr std::pair<const char*, double> kUnits[] = {{"kHz", 1e3}, {"MHz", 1e6}, {"GHz", 1e9}};
-  for (const auto& [name, hertz] : kUnits) {
-    const double carrier_hz = carrier * hertz;
-    if (carrier_hz >= kLeast_hz && carrier_hz <= kMost_hz) {
-      return fmt::format(": is it in {}?", name);
-    }
-  }
-  return "";
-}
-
-/// What a table's numbers say about their units.
-class UnitsSeen {
- public:
-  void add_carrier(double carrier_hz, int line) {
-    if (is_carrier(carrier_hz)) return;
-    if (bad_carriers_++ > 0) return;
-    carrier_ = carrier_hz;
-    carrier_line_ = line;
-  }
-  void add_phase(double phase_rad, int line) {
-    if (std::abs(phase_rad) <= std::abs(phase_)) return;
-    phase_ = phase_rad;
-    phase_line_ = line;
-  }
-  void tell(const std::string& file, Diagnostics& diagnostics) const {
-    if (bad_carriers_ > 0) {
-      diagnostics.warn(
-          {file, carrier_line_},
-          fmt::format(
-              "frequency_hz is {:.10g}, expected a carrier in Hz, from {:g} to {:g}{}{}", carrier_,
-              kMinCarrierHz, kMaxCarrierHz, likely_unit(carrier_),
-              bad_carriers_ > 1 ? fmt::format(" ({} rows are like that)", bad_carriers_) : ""));
-    }
-    if (std::abs(phase_) > kUsualPhase_rad) {
-      diagnostics.warn(
-          {file, phase_line_},
-          fmt::format("phase_rad is {}: whole cycles are dropped, which is right for unwrapped "
-                      "phases in radians, but not for degrees or steps of a cycle, which a "
-                      "--format tells",
-                      phase_));
-    }
-  }
-
- private:
-  /// Readers report one or two cycles.
-  static constexpr double kUsualPhase_rad = 2.0 * kTwoPi + 0.1;
-  std::size_t bad_carriers_ = 0;
-  double carrier_ = 0.0;  ///< The first bad one.
-  int carrier_line_ = 0;
-  double phase_ = 0.0;  ///< The one of greatest magnitude.
-  int phase_line_ = 0;
-};
 
 TagRead read_in(const CsvTable& table, const ReadColumns& columns, const CsvRow& row,
                 UnitsSeen& units) {
@@ -181,7 +125,7 @@ void for_each_read(const std::string& path, const std::function<void(TagRead)>& 
         columns = columns_of(table);
       },
       [&](const CsvRow& row) { take(read_in(table, columns, row, units)); }, {}, on_progress);
-  if (diagnostics != nullptr) units.tell(path, *diagnostics);
+  if (diagnostics != nullptr) units.tell(path, {}, *diagnostics);
 }
 
 std::vector<TagRead> read_reads_csv(const std::string& path,

@@ -241,6 +241,80 @@ def bad_bags_get_one_line(context):
 
 
 @case
+def messages_received_at_time_0_are_counted(context):
+    folder, _ = odometry_run(context, "two_antennas")
+    zero = bags.genpy.Time(0, 0)
+    messages = [(topic, zero if i < 5 else receipt, message) for i, (topic, receipt, message) in
+                enumerate(RunBag(context.source, folder).messages())]
+    write_bag(context.folder / "zero.bag", messages, earliest=zero)
+    result = context.run_well("localize", "zero.bag", "--out", "zero")
+    count = sum(receipt == zero for _, receipt, _ in messages)
+    check_in(f"zero.bag: {count} of its messages were received at time 0 and are left out", result.err, "warning")
+    # What is missing then may be among them.
+    static = [(topic, zero if topic == "/tf_static" else receipt, message)
+              for topic, receipt, message in RunBag(context.source, folder).messages(truth=False)]
+    write_bag(context.folder / "static.bag", static, earliest=zero)
+    expect_complaint(context, ["localize", "static.bag", "--frame", "world"],
+                     "has no poses of the antennas", "of its messages were received at time 0")
+
+
+@case
+def gaps_of_transforms_are_not_bridged(context):
+    """As in a table of poses, reads where an antenna moved between poses over 0.5 s apart are left out."""
+    folder, _ = odometry_run(context, "two_antennas")
+    messages = RunBag(context.source, folder).messages(truth=False)
+    last = messages[-1][1].to_sec()
+    with_gap = [entry for entry in messages
+                if entry[0] != "/tf" or not 0.4 * last < entry[1].to_sec() < 0.4 * last + 2.0]
+    write_bag(context.folder / "gap.bag", with_gap)
+    result = context.run_well("localize", "gap.bag", "--out", "gap")
+    check_in("reads have no pose at their stamp and are left out: its poses there are over 0.5 s apart",
+             result.err, "warning")
+    stamps = [float(row["stamp_s"]) for row in read_csv(context.folder / "gap/antenna_poses.csv")]
+    inside = [stamp for stamp in stamps if 0.4 * last + 0.1 < stamp < 0.4 * last + 1.9]
+    check_equal(inside, [], "poses in the gap")
+
+
+@case
+def units_of_recordings_are_doubted(context):
+    folder, _ = odometry_run(context, "two_antennas")
+    run_bag = RunBag(context.source, folder)
+    for name, factor, says in (
+            ("mhz", (1e-6, 1.0), "mhz.bag: the carrier of a read is 865.7, expected a carrier in Hz, from "
+                                 "1e+06 to 1e+11: is it in MHz?"),
+            ("degrees", (1.0, 57.3), "degrees.bag: the phase of a read is 3")):
+        messages = run_bag.messages()
+        for topic, _, message in messages:
+            for read in message.reads if topic == "/rfid/reads" else []:
+                read.frequency *= factor[0]
+                read.phase *= factor[1]
+        write_bag(context.folder / f"{name}.bag", messages)
+        check_in(says, context.run("localize", f"{name}.bag", "--out", name).err, "warnings")
+
+
+@case
+def options_without_effect_on_a_recording_are_told(context):
+    _, bag = odometry_run(context, "two_antennas")
+    expect_complaint(context, ["localize", bag, "--frame", "nix"],
+                     "--frame nix: there are no transforms (tf) from 'nix' to the frames of the reads")
+    result = context.run_well("localize", bag, "--frequency", "866e6", "--out", "out")
+    check_in("--frequency has no effect: its reads state their carriers", result.err, "warning")
+
+
+@case
+def compressed_files_are_named_so(context):
+    for name, says in (("a.bag.gz", "gunzip a.bag.gz"), ("a.mcap.zst", "zstd -d a.mcap.zst"),
+                       ("a_0.db3.zstd", "zstd -d a_0.db3.zstd")):
+        context.write(name, b"packed")
+        for command in ("localize", "track", "check"):
+            arguments = [command, name] if command == "check" else [command, name, "--out", "never"]
+            result = context.run(*arguments)
+            check_equal(result.code, 2, f"{arguments}: exit code")
+            check_in(f"{name}: is compressed as a whole: decompress it first ({says})", result.err,
+                     f"{arguments}: complaint")
+
+
+@case
 def bad_options_get_one_line(context):
     folder, bag = odometry_run(context, "two_antennas", truth=False)
     expect_complaint(context, ["localize", bag, "--poses", "poses.csv"], "auto, true, tf or odom")

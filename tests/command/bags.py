@@ -161,10 +161,11 @@ class RunBag:
         return found
 
 
-def write_bag(path, messages, compression="none"):
-    """Writes (topic, receipt, message) in the order given."""
+def write_bag(path, messages, compression="none", earliest=None):
+    """Writes (topic, receipt, message) in the order given, received at `earliest` (default 1 ns) or later."""
+    earliest = genpy.Time(0, 1) if earliest is None else earliest
     with rosbag.Bag(str(path), "w", compression=compression, chunk_threshold=64 * 1024) as bag:
         for topic, receipt, message in messages:
-            # Bags do not support time 0.
-            bag.write(topic, message, max(receipt, genpy.Time(0, 1)))
+            # Bags do not support time 0, of which rosbag reads nothing.
+            bag.write(topic, message, max(receipt, earliest))
     return path

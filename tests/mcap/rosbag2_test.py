@@ -150,20 +150,27 @@ def broken_ones_are_reported(context):
 
 @case
 def refusals_are_one_line(context):
+    _, topics, _ = recorded(context)
     bag = context.folder / "bag"
     bag.mkdir()
 
     def refused(path, says):
-        result = context.run("localize", path, "--out", "out")
+        result = context.run("localize", path, "--out", "refused")
         check_equal(result.code, 2, f"exit code of {path}")
         check_equal(len(result.err.splitlines()), 1, f"lines of complaint ({result.err})")
         check_in(says, result.err, "complaint")
-        check(not (context.folder / "out/reads.csv").exists(), "reads.csv is there")
+        check(not (context.folder / "refused/reads.csv").exists(), "reads.csv is there")
 
     refused(context.write("text.db3", b"hello" * 3000), "is not a database of rosbag2")
     refused(context.folder / "gone.db3", "no such file")
     refused(write_database(context.folder / "empty.db3", {"/tf": "tf2_msgs/msg/TFMessage"}, []),
             "has no reads: no topic of type tagfield_msgs/msg/TagReads")
+    refused(write_database(context.folder / "silent.db3", topics, []),
+            "has no reads: there are no messages on /rfid/reads")
+    json = context.write("json.db3", (context.folder / "silent.db3").read_bytes())
+    with sqlite3.connect(json) as database:
+        database.execute("UPDATE topics SET serialization_format = 'json'")
+    refused(json, "has no reads: /rfid/reads is encoded as 'json', expected 'cdr'")
     for name, says in (("../empty.db3", "which is not in this folder"),
                        ("run.db3.zstd", "compressed as a whole")):
         write_metadata(bag, [name])
