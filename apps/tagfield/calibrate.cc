@@ -9,6 +9,8 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/json_option.h"
+#include "apps/tagfield/number_checks.h"
+#include "apps/tagfield/output_file.h"
 #include "tagfield/calibration/calibration.h"
 #include "tagfield/calibration/carry_over.h"
 #include "tagfield/files/files.h"
@@ -27,6 +29,7 @@ struct CalibrateArguments {
   std::string out;
   CalibrationOptions options;
   bool as_json = false;
+  bool force = false;
   int threads = default_threads();
 };
 
@@ -141,7 +144,17 @@ Calibration calibration_of_all(const CalibrateArguments& arguments, Diagnostics&
       experiments.size()));
 }
 
+/// All files that the profile must not replace.
+std::vector<std::string> inputs_of(const CalibrateArguments& arguments) {
+  std::vector<std::string> inputs = arguments.poses;
+  inputs.insert(inputs.end(), arguments.tags.begin(), arguments.tags.end());
+  inputs.insert(inputs.end(), arguments.reads.begin(), arguments.reads.end());
+  return inputs;
+}
+
 int calibrate_command(const CalibrateArguments& arguments) {
+  require_replaceable({"--out", arguments.out, "a profile of a calibration", {"kind: calibration"}},
+                      inputs_of(arguments), arguments.force);
   if (arguments.reads.size() == 2) {
     throw Error(
         "calibrate: two experiments do not show what carries over: expected one READS, "
@@ -190,15 +203,16 @@ void add_calibrate_command(CLI::App& app, Action& chosen) {
       ->take_all()
       ->allow_extra_args(false);
   command->add_option("--out", arguments->out, "Profile to write (YAML)")->required();
+  add_force_option(*command, arguments->force);
   command
       ->add_option(
           "--phase-centre-sigma", arguments->options.phase_centre_sigma_m,
           "How far off each component of an antenna's position may be, one sigma [m] (default 0.1)")
-      ->check(CLI::PositiveNumber);
+      ->check(fault_of_positive);
   command
       ->add_option("--time-sigma", arguments->options.time_offset_sigma_s,
                    "How late or early stamps may be, one sigma [s] (default 0.05)")
-      ->check(CLI::PositiveNumber);
+      ->check(fault_of_positive);
   add_json_option(*command, arguments->as_json, "the values of the profile");
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));

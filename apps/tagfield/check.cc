@@ -131,6 +131,7 @@ Json describe_scenario(const CheckArguments& arguments, Diagnostics& diagnostics
   warn_of_long_run(loaded.scenario, true, diagnostics);
   if (loaded.scenario.duration_s) {
     warn_of_late_tags(loaded.scenario, *loaded.scenario.duration_s, diagnostics);
+    warn_of_late_kidnappings(loaded.scenario, *loaded.scenario.duration_s, diagnostics);
   }
   Json json = {{"kind", "scenario"}, {"scenario", loaded.scenario.name}};
   json.update(describe(loaded.scene));

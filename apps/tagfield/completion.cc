@@ -9,6 +9,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/json_line.h"
 #include "apps/tagfield/json_option.h"
+#include "apps/tagfield/output_file.h"
 #include "tagfield/base/error.h"
 #include "tagfield/files/files.h"
 
@@ -306,6 +307,7 @@ void add_completion_command(CLI::App& app, Action& chosen) {
   const auto shell = std::make_shared<std::string>();
   const auto file = std::make_shared<std::string>();
   const auto as_json = std::make_shared<bool>(false);
+  const auto force = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand(
       "completion", "Print a script that completes commands, options and files in a shell");
   command->add_option("SHELL", *shell, "Shell to print it for")
@@ -315,13 +317,18 @@ void add_completion_command(CLI::App& app, Action& chosen) {
   add_json_option(
       *command, *as_json,
       "{\"shell\": SHELL, \"script\": TEXT}, or with --out {\"shell\": SHELL, \"file\": FILE}");
+  add_force_option(*command, *force);
   command->footer(
       "Installed packages include it. Otherwise, for this shell alone or in its start-up file:\n"
       "  bash:  source <(tagfield completion bash)\n"
       "  zsh:   source <(tagfield completion zsh)\n"
       "  fish:  tagfield completion fish | source");
-  command->callback([shell, file, as_json, &app, &chosen] {
-    chosen = [shell, file, as_json, &app] {
+  command->callback([shell, file, as_json, force, &app, &chosen] {
+    chosen = [shell, file, as_json, force, &app] {
+      if (!file->empty()) {
+        require_replaceable({"--out", *file, "a completion", {"made by 'tagfield completion"}}, {},
+                            *force);
+      }
       return print_or_write_script(completion_script(app, *shell), *shell, *file, *as_json);
     };
   });

@@ -11,6 +11,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/json_option.h"
 #include "apps/tagfield/middleware_arguments.h"
+#include "apps/tagfield/output_file.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/start_time.h"
 #include "tagfield/base/file_kind.h"
@@ -36,6 +37,7 @@ struct EventsArguments {
   CaptureArguments capture;
   std::string start;
   bool json = false;
+  bool force = false;
 };
 
 std::vector<TagRead> reads_in_bag(const std::string& path, Diagnostics& diagnostics) {
@@ -188,6 +190,9 @@ class Capture {
 };
 
 int events(const EventsArguments& arguments) {
+  require_replaceable(
+      {"--epcis", arguments.epcis, "a file of EPCIS", {"\"EPCISDocument\"", "\"ObjectEvent\""}},
+      {arguments.recording, arguments.spec}, arguments.force);
   Diagnostics diagnostics;
   const EventsSpec spec = arguments.spec.empty() ? EventsSpec{} : read_events_spec(arguments.spec);
   const std::vector<TagRead> reads = reads_of(arguments, diagnostics);
@@ -242,6 +247,7 @@ void add_events_command(CLI::App& app, Action& chosen) {
   command->add_option("--epcis", arguments->epcis,
                       "Write ObjectEvents of EPCIS 2.0 (JSON-LD) into this file: one document, or "
                       "an event on each line if its name ends in .jsonl");
+  add_force_option(*command, arguments->force);
   add_capture_options(*command, arguments->capture);
   add_start_option(*command, arguments->start);
   add_json_option(*command, arguments->json, "a line for each event");

@@ -12,6 +12,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/json_line.h"
 #include "apps/tagfield/json_option.h"
+#include "apps/tagfield/output_file.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
 #include "apps/tagfield/speed_option.h"
@@ -32,6 +33,7 @@ struct GazeboArguments {
   std::vector<std::string> settings;
   std::optional<double> real_time;
   bool as_json = false;
+  bool force = false;
   std::string keep_out;
   bool gz = false;
   GzSimOptions gz_options;
@@ -55,6 +57,15 @@ void write_keep_out(const std::string& path, const Scenario& scenario, const Sce
 fs::path out_of(const GazeboArguments& arguments) {
   if (!arguments.out.empty()) return arguments.out;
   return fs::path(arguments.scenario).stem().concat(arguments.gz ? ".sdf" : ".world");
+}
+
+void require_replaceable_files(const GazeboArguments& arguments) {
+  const std::vector<std::string> inputs = {arguments.scenario};
+  const fs::path image = fs::path(arguments.keep_out).replace_extension(".pgm");
+  require_replaceable({"--out", out_of(arguments), "a world", {"<sdf"}}, inputs, arguments.force);
+  require_replaceable({"--keep-out", arguments.keep_out, "a map", {"occupied_thresh"}}, inputs,
+                      arguments.force);
+  require_replaceable({"--keep-out", image, "the image of a map", {"P5"}}, inputs, arguments.force);
 }
 
 /// Prints the world, and the environment variable for finding its models; "" for none.
@@ -120,6 +131,7 @@ int convert_world(const GazeboArguments& arguments) {
 }
 
 int write_world(const GazeboArguments& arguments) {
+  require_replaceable_files(arguments);
   const fs::path kind = fs::path(arguments.scenario).extension();
   if (kind != ".world" && kind != ".sdf") return write_gazebo_world(arguments);
   if (arguments.gz) return convert_world(arguments);
@@ -140,6 +152,7 @@ void add_gazebo_command(CLI::App& app, Action& chosen) {
                    "Scenario file (YAML); with --gz also a .world or .sdf of Gazebo 11")
       ->required();
   command->add_option("--out", arguments->out, "File to write (default NAME.world, or NAME.sdf)");
+  add_force_option(*command, arguments->force);
   add_json_option(*command, arguments->as_json,
                   "{\"world\": FILE, \"environment\": "
                   "{VARIABLE: FOLDERS}}");

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "apps/tagfield/foreign_tables.h"
+#include "apps/tagfield/number_checks.h"
 #include "tagfield/base/number.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
@@ -172,12 +173,12 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
                       "(default: the covariances in the table of poses, or unknown)")
           ->check(CLI::Range(0.0, kMaxLength_m));
   command.add_option("--pose-yaw-sigma", arguments.pose_yaw_sigma_deg, "Likewise in yaw [deg]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(fault_of_non_negative)
       ->needs(sigma);
   command
       .add_option("--pose-time-constant", arguments.pose_time_constant_s,
                   "Time constant of the poses' error [s] (default 5)")
-      ->check(CLI::PositiveNumber)
+      ->check(fault_of_positive)
       ->needs(sigma);
   CLI::Option* map_sigma = command
                                .add_option("--map-sigma", arguments.map_sigma_m,
@@ -187,7 +188,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
   command
       .add_option("--map-yaw-sigma", arguments.map_yaw_sigma_deg,
                   "Likewise of its rotation about the first pose [deg]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(fault_of_non_negative)
       ->needs(map_sigma);
   command
       .add_option("--world-sigma", arguments.world_sigma_m,

@@ -19,6 +19,7 @@
 #include "apps/tagfield/first_steps.h"
 #include "apps/tagfield/json_option.h"
 #include "apps/tagfield/memory_limit.h"
+#include "apps/tagfield/number_checks.h"
 #include "apps/tagfield/usage_fault.h"
 #include "apps/tagfield/version.h"
 #include "tagfield/base/error.h"
@@ -41,6 +42,7 @@ int parse_and_run(int argc, char** argv) {
   tagfield::add_json_option(app, as_json, "with --version")->needs(version_flag);
   tagfield::Action chosen;
   tagfield::add_commands(app, chosen);
+  tagfield::refuse_nan(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tagfield/ros_options.h"
 
+#include "apps/tagfield/number_checks.h"
 #include "tagfield/base/error.h"
 
 namespace tagfield {
@@ -13,7 +14,7 @@ void add_ros_options(CLI::App& command, RosOptions& options) {
   command
       .add_option("--frequency", options.frequency_hz,
                   "With a bag of rfid_sensor/TagArray: the carrier [Hz] (default 865.7e6)")
-      ->check(CLI::PositiveNumber);
+      ->check(fault_of_carrier);
 }
 
 void refuse_ros_options(const std::string& command, const RosOptions& options) {

@@ -11,6 +11,7 @@
 #include "apps/tagfield/json_option.h"
 #include "apps/tagfield/long_runs.h"
 #include "apps/tagfield/outlet_arguments.h"
+#include "apps/tagfield/output_file.h"
 #include "apps/tagfield/own_folder.h"
 #include "apps/tagfield/program_version.h"
 #include "apps/tagfield/progress_bar.h"
@@ -148,6 +149,7 @@ void warn_of_tags_after_end(const Scenario& scenario, const std::vector<SeedRun>
     end_s = std::max(end_s, run.simulated_s);
   }
   warn_of_late_tags(scenario, end_s, diagnostics);
+  warn_of_late_kidnappings(scenario, end_s, diagnostics);
 }
 
 /// The breakdown; empty if not requested.
@@ -291,6 +293,7 @@ int run(const RunArguments& arguments) {
   const std::string out =
       arguments.out.empty() ? "runs/" + folder_name(scenario.name) : arguments.out;
   require_own_folder(out, scenario.name, arguments.force);
+  require_replaceable(mcap_output(arguments.outlets.mcap), {arguments.scenario}, arguments.force);
   catch_interrupts();  // From here on an interruption would leave files in the folder.
   StagedFolder folder(out);
   std::optional<NavigationWorld> world;
@@ -347,7 +350,8 @@ void add_run_command(CLI::App& app, Action& chosen) {
   command->add_option("--out", arguments->out, "Folder for the results (default runs/NAME)");
   add_change_options(*command, arguments->settings, arguments->without);
   command->add_flag("--force", arguments->force,
-                    "Replace results of another scenario in the folder");
+                    "Replace results of another scenario in the folder, and with --mcap a file of "
+                    "another kind");
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--no-page", arguments->no_page, "Write the data only, no report.html");

@@ -83,7 +83,10 @@ int stream(const StreamArguments& arguments) {
   }
   if (spec) warn_of_missing_readers(arguments.middleware.spec, *spec, scenario, diagnostics);
   check_topics(arguments.middleware, scenario, diagnostics);
-  if (scenario.duration_s) warn_of_late_tags(scenario, *scenario.duration_s, diagnostics);
+  if (scenario.duration_s) {
+    warn_of_late_tags(scenario, *scenario.duration_s, diagnostics);
+    warn_of_late_kidnappings(scenario, *scenario.duration_s, diagnostics);
+  }
   print_warnings(diagnostics);
   const Time start = start_time("stream", arguments.start, Time{});
   const auto lines = std::make_shared<LinePrinter>(start);

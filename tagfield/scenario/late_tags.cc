@@ -27,4 +27,18 @@ void warn_of_late_tags(const Scenario& scenario, double end_s, Diagnostics& diag
                 count, end_s, first->id, at_s));
 }
 
+void warn_of_late_kidnappings(const Scenario& scenario, double end_s, Diagnostics& diagnostics) {
+  for (const RobotSpec& robot : scenario.robots) {
+    for (const Kidnapping& kidnapping : robot.kidnapped) {
+      const double at_s = to_seconds(kidnapping.when);
+      if (at_s <= end_s) continue;
+      diagnostics.warn(
+          kidnapping.location,
+          fmt::format("robot '{}' would be kidnapped at {:g} s, after the run's end at "
+                      "{:g} s: it is not",
+                      robot.name, at_s, end_s));
+    }
+  }
+}
+
 }  // namespace tagfield

@@ -39,5 +39,19 @@ TEST(LateTags, AreNamedOnce) {
                    "s: they are not read"});
 }
 
+TEST(LateKidnappings, AreEachNamed) {
+  Scenario scenario;
+  scenario.robots.resize(1);
+  scenario.robots[0].name = "cart";
+  for (const double at_s : {1.0, 10.0, 5000.0}) {
+    scenario.robots[0].kidnapped.push_back({time_from_seconds(at_s), {}, {"hall.yaml", 3}});
+  }
+  Diagnostics diagnostics;
+  warn_of_late_kidnappings(scenario, 10.0, diagnostics);
+  EXPECT_EQ(diagnostics.warnings(),
+            LateWarnings{"hall.yaml:3: robot 'cart' would be kidnapped at 5000 s, after the run's "
+                         "end at 10 s: it is not"});
+}
+
 }  // namespace
 }  // namespace tagfield
