@@ -322,6 +322,7 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
     if (begun[i] != 0 && (i == 0 || runs[i].complete)) kept.push_back(std::move(runs[i]));
     for (const std::string& warning : warnings[i].warnings()) diagnostics.warn(warning);
   }
+  warn_of_robot_contacts(kept, diagnostics);
   return kept;
 }
 

@@ -106,6 +106,15 @@ std::vector<std::string> split_at_dots(std::string_view path) {
   return words;
 }
 
+/// Writers of YAML 1.1, such as PyYAML, take the key 'on' for a truth value unless it is text.
+constexpr const char* kMisreadOn =
+    " (is it the key 'on', written by a program for YAML 1.1? Quote it there: 'on')";
+
+bool is_misread_on(const std::string& key, const std::vector<std::string>& known) {
+  return (key == "true" || key == "True") &&
+         std::find(known.begin(), known.end(), "on") != known.end();
+}
+
 [[noreturn]] void leads_nowhere(std::string_view key_path, const std::string& why) {
   fail({fmt::format("{} {}", kCommandLine, key_path), 0}, why);
 }
@@ -300,7 +309,8 @@ void YamlMap::fail_on_unknown(const YAML::Node& key, const YAML::Node& value,
   const Location location = YamlValue(from_file ? key : value, self_.file(), word).location();
   const std::string where = self_.path().empty() ? "" : fmt::format(" in {}", self_.path());
   tagfield::fail(location,
-                 fmt::format("unknown key '{}'{}{}", word, where, suggestion(word, known)));
+                 fmt::format("unknown key '{}'{}{}", word, where,
+                             is_misread_on(word, known) ? kMisreadOn : suggestion(word, known)));
 }
 
 void YamlMap::complain_of_slip(const std::string& missing) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "tagfield/base/units.h"
 #include "tagfield/motion/planar_pose.h"
@@ -47,19 +48,39 @@ class TouchWatch {
   }
 
   void look(const std::string& robot, const PlanarPose& pose_W, Time now) {
-    const double distance =
-        world_.clearance.distance(pose_W, obstacles_at(world_.laser.obstacles, now));
-    navigation_.closest_m = std::min(navigation_.closest_m, distance);
-    const bool touches = distance <= 0.0;
-    bool& touched = touches_[robot];
-    if (touches && !touched) ++navigation_.collisions;
-    touched = touches;
+    (void)begins_to_touch(
+        robot, world_.clearance.distance(pose_W, obstacles_at(world_.laser.obstacles, now)));
+  }
+
+  void look_at_each_other(const std::vector<Robot>& robots, Time now) {
+    std::vector<std::pair<std::string, PlanarPose>> driving;
+    for (const Robot& robot : robots) {
+      if (robot.self_driver() == nullptr) continue;
+      const PlanarPose pose_W = planar(robot.true_pose(0.0));
+      for (const auto& [other, other_W] : driving) {
+        const double distance = world_.clearance.distance_between(other_W, pose_W);
+        if (!begins_to_touch(other + '\n' + robot.name(), distance)) continue;
+        navigation_.robot_contacts.push_back(
+            {other, robot.name(), to_seconds(now), position_of(other_W)});
+      }
+      driving.emplace_back(robot.name(), pose_W);
+    }
   }
 
  private:
+  /// Counts a distance; true if it is a new contact of `who`.
+  bool begins_to_touch(const std::string& who, double distance) {
+    navigation_.closest_m = std::min(navigation_.closest_m, distance);
+    bool& touched = touches_[who];
+    const bool begins = distance <= 0.0 && !touched;
+    touched = distance <= 0.0;
+    if (begins) ++navigation_.collisions;
+    return begins;
+  }
+
   const NavigationWorld& world_;
   NavigationRun& navigation_;
-  std::map<std::string, bool> touches_;
+  std::map<std::string, bool> touches_;  ///< By robot, or by pair of robots.
 };
 
 /// Measures at 10 Hz how well the robots know their poses.
@@ -137,6 +158,7 @@ void drive(const Scenario& scenario, const RunControl& control, const Navigation
       tell_scans(robot, control.navigation.get());
       if (is_due) beliefs.look(robot, begin);
     }
+    touches.look_at_each_other(simulation.robots(), begin);
     if (control.on_progress) {
       control.on_progress(kMappingShare + (1.0 - kMappingShare) * simulation.progress());
     }

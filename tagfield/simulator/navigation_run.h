@@ -3,8 +3,10 @@
 /// A run of robots that navigate by themselves, and what is measured during it.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tagfield/scenario/scenario.h"
@@ -16,6 +18,14 @@
 
 namespace tagfield {
 
+/// Two robots that came to touch, as robots do not avoid one another.
+struct RobotContact {
+  std::string one;
+  std::string other;
+  double at_s = 0.0;
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< Of `one` [m].
+};
+
 /// Results of the navigation in one run.
 struct NavigationRun {
   std::optional<Survey> survey;  ///< None if the map was given.
@@ -23,9 +33,10 @@ struct NavigationRun {
   std::vector<GoalOutcome> goals;
   std::vector<double> position_errors_m;  ///< Of the believed pose at 10 Hz,
   std::vector<double> yaw_errors_rad;     ///< absolute values.
-  double closest_m = 0.0;         ///< Minimum distance between a robot's outline and anything,
-  int collisions = 0;             ///< and number of contacts; both include mapping.
-  std::vector<Finding> findings;  ///< Of all robots.
+  double closest_m = 0.0;  ///< Minimum distance between a robot's outline and anything,
+  int collisions = 0;      ///< and number of contacts; both include mapping.
+  std::vector<RobotContact> robot_contacts;  ///< Included in these.
+  std::vector<Finding> findings;             ///< Of all robots.
   int times_lost = 0;
 };
 

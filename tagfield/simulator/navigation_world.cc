@@ -57,6 +57,38 @@ void require_good_starts(const Scenario& scenario, const RobotClearance& clearan
   }
 }
 
+/// Robots do not avoid one another, but they can't start inside one another.
+void require_starts_apart(const Scenario& scenario, const RobotClearance& clearance) {
+  const std::vector<RobotSpec>& robots = scenario.robots;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!drives(robots[i]) || !drives(robots[j])) continue;
+      if (clearance.distance_between(robots[j].start, robots[i].start) > 0.0) continue;
+      fail(robots[i].location,
+           fmt::format("{} puts the robot into robot '{}'",
+                       place_name(fmt::format("robots[{}].start", i), robots[i].start),
+                       robots[j].name));
+    }
+  }
+}
+
+/// Robots that know where they are must be on the map that they are given.
+void require_starts_on(const OccupancyGrid& map, const Scenario& scenario) {
+  const NavigationSpec& navigation = navigation_of(scenario);
+  if (navigation.start == StartBelief::kRandom) return;
+  const Eigen::Vector2d far_corner =
+      map.origin + map.resolution_m * Eigen::Vector2d(map.width, map.height);
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    const RobotSpec& robot = scenario.robots[i];
+    const Eigen::Vector2i cell = map.cell_of(position_of(robot.start));
+    if (!drives(robot) || map.contains(cell.x(), cell.y())) continue;
+    fail(robot.location,
+         fmt::format("{} is not on the map {}, which is from ({:.2f}, {:.2f}) to ({:.2f}, {:.2f})",
+                     place_name(fmt::format("robots[{}].start", i), robot.start), navigation.map,
+                     map.origin.x(), map.origin.y(), far_corner.x(), far_corner.y()));
+  }
+}
+
 /// Throws Error if a robot is kidnapped into something, or out of the world.
 void require_good_carryings(const Scenario& scenario, const RobotClearance& clearance,
                             const OccupancyGrid& truth) {
@@ -117,8 +149,12 @@ NavigationWorld navigation_world(const Scenario& scenario, const Scene& scene,
   const Eigen::Vector2d start = position_of(robot.start);
   RobotClearance clearance(scene, RobotOutline{});
   require_good_starts(scenario, clearance);
+  require_starts_apart(scenario, clearance);
   std::optional<OccupancyGrid> given;
-  if (!navigation.map.empty()) given = usable_map(navigation.map, diagnostics);
+  if (!navigation.map.empty()) {
+    given = usable_map(navigation.map, diagnostics);
+    require_starts_on(*given, scenario);
+  }
   const double resolution_m = given ? given->resolution_m : navigation.mapper.resolution_m;
   NavigationWorld world{{std::make_shared<const RayScene>(scene), scenario.obstacles},
                         {},

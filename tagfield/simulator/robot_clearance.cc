@@ -174,4 +174,9 @@ double RobotClearance::distance(const PlanarPose& pose_W, const Obstacles& obsta
   return std::max(least, 0.0);
 }
 
+double RobotClearance::distance_between(const PlanarPose& one_W, const PlanarPose& other_W) const {
+  const Rectangle other{position_of(other_W), 2.0 * half_of(outline_), other_W.yaw};
+  return distance_to_box(outline_, one_W, other);
+}
+
 }  // namespace tagfield

@@ -46,6 +46,9 @@ class RobotClearance {
   /// the robot are hollow, as a hall is.
   [[nodiscard]] double distance(const PlanarPose& pose_W, const Obstacles& obstacles) const;
 
+  /// Minimum distance between the outlines of two robots [m], at most kMost.
+  [[nodiscard]] double distance_between(const PlanarPose& one_W, const PlanarPose& other_W) const;
+
   /// Minimum distance from a point to a solid [m], underestimated by up to 6 cm and never
   /// overestimated; 10 m if all solids are farther, 2 m outside the area around the solids.
   [[nodiscard]] double room_at(const Eigen::Vector2d& p_W) const;

@@ -602,7 +602,15 @@ def arguments(context):
             ([*run, "--frob"], "--frob"), ([*run, "another.yaml"], "another.yaml"),
             ([*localize, "--method", "parabola"], "method"),
             ([*localize, "--tag-height", "tall"], "tag-height"),
-            ([*localize, "--tag-height", "nan"], "height"),
+            ([*localize, "--tag-height", "nan"], "--tag-height: 'nan' is not a number"),
+            ([*localize, "--pose-sigma", "nan"], "--pose-sigma: 'nan' is not a number"),
+            ([*localize, "--map-sigma", "NaN"], "--map-sigma: 'NaN' is not a number"),
+            ([*localize, "--box", "nan", "0", "1", "1"], "--box: 'nan' is not a number"),
+            ([*localize, "--frequency", "nan"], "--frequency: 'nan' is not a carrier in Hz"),
+            ([*localize, "--frequency", "-1"], "'-1' is not a carrier in Hz, from 1e+06 to 1e+11"),
+            ([*localize, "--frequency", "865.7"], "is it in MHz?"),
+            ([*localize, "--pose-sigma", "0.1", "--pose-time-constant", "0"],
+             "'0' is not a number greater than 0"),
             ([*localize, "--tag-height", "inf"], "height"),
             ([*localize, "--set", "stride_m=0.5"], ["stride_m is not used by auto", "hyperbola"]),
             ([*localize, "--method", "hyperbola", "--set", "stride_m=0"], "must be over 0"),
@@ -961,6 +969,26 @@ def robots_in_walls(context):
 
 
 @case
+def robots_that_are_in_each_others_way(context):
+    """They don't avoid one another, which is told; they must not start in the same place."""
+    write_hall(context)
+    second = "  - {{name: second, start: [{}, 0, 3.14159], goals: [[-0.5, 0, 3.14159]]}}\nantennas:\n"
+    text = replaced(NAVIGATION, "    kidnapped: [[300, -1, 0, 0]]\n", "")
+    expect_bad_scenario(context, "one start", replaced(text, "antennas:\n", second.format(0.2)),
+                        ["robots[1].start (0.20, 0.00) puts the robot into robot 'cart'"], 8)
+    path = context.write("two.yaml", replaced(text, "antennas:\n", second.format(1.2)))
+    result = context.run_well("run", path, "--no-page", "--out", "out")
+    check_in("robots 'cart' and 'second' drive through each other at ", result.err, "warning")
+    navigation = read_json(context.folder / "out/summary.json")["navigation"]
+    check_equal(navigation["closest_m"], 0, "closest_m")
+    check(navigation["collisions"] > 0, "collisions")
+    far = replaced(text, "start: [0, 0, 0]", "start: [50, 0, 0]")
+    expect_bad_scenario(context, "beside the map", far, ["robots[0].start (50.00, 0.00) is not on the map"], 5)
+    result = context.run_well("run", context.write("late.yaml", NAVIGATION), "--no-page", "--out", "late")
+    check_in("late.yaml:8: robot 'cart' would be kidnapped at 300 s, after the run's end", result.err, "warning")
+
+
+@case
 def ways_to_find_that_make_no_sense(context):
     write_hall(context)
     for old, new, says in (
@@ -974,6 +1002,9 @@ def ways_to_find_that_make_no_sense(context):
             ("[[300, -1, 0, 0]]", "[[-1]]", "robots[0].kidnapped[0]"),
             ("  mode: slam", "  mode: odometry", ["robots[0].goals", "navigation: slam"]),
             ("{beams: 91}", "{beams: 1}", "navigation.laser.beams"),
+            ("{beams: 91}", "{first_angle_deg: 90, last_angle_deg: -90}",
+             "navigation.laser.last_angle_deg makes the laser see from 90 to -90 degrees"),
+            ("{beams: 91}", "{first_angle_deg: -400}", "navigation.laser.first_angle_deg is -400"),
             ("radius_m: 0.2, position", "radius_m: -0.2, position", "obstacles[0].radius_m")):
         text = replaced(NAVIGATION, old, new)
         expect_bad_scenario(context, new.strip(), text, says)
@@ -1080,6 +1111,37 @@ def output_folders_that_cannot_be_written(context):
         expect_complaint(context, f"localize --out {out}",
                          ["localize", "reads.csv", "--poses", "poses.csv", "--out", out], out,
                          file=out)
+
+
+@case
+def files_that_outputs_must_not_replace(context):
+    """Not an input in any case, and a file of another kind only with --force."""
+    path = context.write("good.yaml", SCENARIO)
+    context.write("reads.csv", READS)
+    context.write("poses.csv", POSES)
+    context.write("tags.csv", "tag,x_m,y_m,z_m\nnear,1,2,1\n")
+    notes = context.write("notes.txt", "somebody's notes")
+    run = ["run", path, "--no-page", "--out", stranger(context), "--mcap"]
+    calibrate = ["calibrate", "reads.csv", "--poses", "poses.csv", "--tags", "tags.csv", "--out"]
+    for command in (run, ["events", "reads.csv", "--epcis"], calibrate, ["gazebo", path, "--out"],
+                    ["gazebo", path, "--out", "w.world", "--keep-out"],
+                    ["completion", "bash", "--out"]):
+        name = " ".join(map(str, command))
+        expect_complaint(context, f"{name} of another kind", [*command, notes], "or --force to replace it",
+                         file=notes)
+    for command, file in ((run, path), (["events", "reads.csv", "--epcis"], "reads.csv"),
+                          (calibrate, "tags.csv"), (["gazebo", path, "--out"], path)):
+        for force in ([], ["--force"]):
+            expect_complaint(context, f"{command[0]} {file} {force}", [*command, file, *force],
+                             "would replace an input of this command", file=file)
+    os.symlink("good.yaml", context.folder / "link.yaml")
+    expect_complaint(context, "a link to an input", [*run, "link.yaml", "--force"], "would replace an input")
+    for _ in range(2):  # The second time it replaces its own file.
+        context.run_well("completion", "bash", "--out", "completion.bash")
+        context.run_well("gazebo", path, "--out", "good.world")
+        context.run_well("events", "reads.csv", "--epcis", "events.json")
+    context.run_well("events", "reads.csv", "--epcis", notes, "--force")
+    check("EPCISDocument" in notes.read_text(encoding="utf-8"), "--force does not replace the notes")
 
 
 @case

@@ -76,6 +76,23 @@ std::optional<FindingSummary> findings_of(const std::vector<SeedRun>& runs, Posi
 
 }  // namespace
 
+void warn_of_robot_contacts(const std::vector<SeedRun>& runs, Diagnostics& diagnostics) {
+  const RobotContact* first = nullptr;
+  std::size_t count = 0;
+  for (const SeedRun& run : runs) {
+    if (!run.navigation || run.navigation->robot_contacts.empty()) continue;
+    count += run.navigation->robot_contacts.size();
+    if (first == nullptr) first = &run.navigation->robot_contacts.front();
+  }
+  if (first == nullptr) return;
+  diagnostics.warn(fmt::format(
+      "robots '{}' and '{}' drive through each other at {:.1f} s, around ({:.2f}, {:.2f}){}: "
+      "robots "
+      "neither see nor avoid one another",
+      first->one, first->other, first->at_s, first->place.x(), first->place.y(),
+      count > 1 ? fmt::format(", and there are {} such collisions in all", count) : ""));
+}
+
 NavigationSummary navigation_summary(const std::vector<SeedRun>& runs,
                                      const NavigationWorld& world) {
   NavigationSummary summary;

@@ -117,6 +117,11 @@ Member member_of(const NavigationRun& run) {
     findings.push_back({static_cast<int>(finding.why), finding.noticed, exact_json(finding.seconds),
                         exact_json(finding.driven_m), finding.wrong});
   }
+  Member contacts = Member::array();
+  for (const RobotContact& contact : run.robot_contacts) {
+    contacts.push_back({contact.one, contact.other, exact_json(contact.at_s),
+                        exact_json(contact.place.x()), exact_json(contact.place.y())});
+  }
   Member survey;
   if (run.survey) {
     survey = {exact_json(run.survey->path_length_m), exact_json(run.survey->simulated_s)};
@@ -128,6 +133,7 @@ Member member_of(const NavigationRun& run) {
           {"yaw_errors_rad", member_of(run.yaw_errors_rad)},
           {"closest_m", exact_json(run.closest_m)},
           {"collisions", run.collisions},
+          {"robot_contacts", std::move(contacts)},
           {"findings", std::move(findings)},
           {"times_lost", run.times_lost}};
 }
@@ -150,6 +156,13 @@ NavigationRun navigation_in(const Member& member) {
   run.yaw_errors_rad = numbers_of(member.at("yaw_errors_rad"));
   run.closest_m = exact_double_in(member.at("closest_m"));
   run.collisions = member.at("collisions").get<int>();
+  for (const Member& contact : member.at("robot_contacts")) {
+    run.robot_contacts.push_back(
+        {contact.at(0).get<std::string>(),
+         contact.at(1).get<std::string>(),
+         exact_double_in(contact.at(2)),
+         {exact_double_in(contact.at(3)), exact_double_in(contact.at(4))}});
+  }
   for (const Member& finding : member.at("findings")) {
     run.findings.push_back({static_cast<PositionLoss>(finding.at(0).get<int>()),
                             finding.at(1).get<bool>(), exact_optional_in(finding.at(2)),

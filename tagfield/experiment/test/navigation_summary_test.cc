@@ -69,6 +69,24 @@ TEST(NavigationSummary, SumsFindingsUpBySort) {
   EXPECT_EQ(summary.walls_found, 1.0);
 }
 
+TEST(NavigationSummary, WarnsOfRobotsThatDriveThroughEachOther) {
+  std::vector<SeedRun> runs{run_of(1), run_of(2)};
+  Diagnostics diagnostics;
+  warn_of_robot_contacts(runs, diagnostics);
+  EXPECT_TRUE(diagnostics.warnings().empty());
+  runs[1].navigation->robot_contacts = {{"a", "b", 56.04, {1.0, -2.0}}};
+  warn_of_robot_contacts(runs, diagnostics);
+  runs[0].navigation->robot_contacts = {{"a", "c", 3.0, {0.0, 0.0}}};
+  warn_of_robot_contacts(runs, diagnostics);
+  ASSERT_EQ(diagnostics.warnings().size(), 2U);
+  EXPECT_EQ(diagnostics.warnings()[0],
+            "robots 'a' and 'b' drive through each other at 56.0 s, around (1.00, -2.00): robots "
+            "neither see nor avoid one another");
+  EXPECT_EQ(diagnostics.warnings()[1],
+            "robots 'a' and 'c' drive through each other at 3.0 s, around (0.00, 0.00), and there "
+            "are 2 such collisions in all: robots neither see nor avoid one another");
+}
+
 /// Random starts and goals: each seed has its own, and the number of threads makes no difference.
 TEST(RunSeeds, OfRobotsThatDriveByThemselves) {
   Scenario scenario = small_drive();

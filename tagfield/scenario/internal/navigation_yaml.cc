@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "tagfield/base/units.h"
 #include "tagfield/scenario/internal/radio_yaml.h"
 #include "tagfield/scenario/yaml_values.h"
@@ -60,8 +62,20 @@ LaserParameters laser_of(YamlMap map) {
   LaserParameters laser;
   laser.beams = count_of(map, "beams", laser.beams, 2, 100'000);
   constexpr double kDegree = radians(1.0);
-  laser.first_angle_rad = radians(map.number("first_angle_deg", laser.first_angle_rad / kDegree));
-  laser.last_angle_rad = radians(map.number("last_angle_deg", laser.last_angle_rad / kDegree));
+  const double first_deg = map.number("first_angle_deg", laser.first_angle_rad / kDegree);
+  const double last_deg = map.number("last_angle_deg", laser.last_angle_rad / kDegree);
+  if (std::abs(first_deg) > 360.0) {
+    map.at("first_angle_deg").fail(fmt::format("is {}, expected -360 to 360", first_deg));
+  }
+  if (!(last_deg > first_deg && last_deg - first_deg <= 360.0 + 1e-9)) {
+    map.at(map.has("last_angle_deg") ? "last_angle_deg" : "first_angle_deg")
+        .fail(
+            fmt::format("makes the laser see from {} to {} degrees, expected last_angle_deg to be "
+                        "greater than first_angle_deg, by 360 at most",
+                        first_deg, last_deg));
+  }
+  laser.first_angle_rad = radians(first_deg);
+  laser.last_angle_rad = radians(last_deg);
   laser.min_range_m = map.number("min_range_m", laser.min_range_m, kNotNegative);
   laser.max_range_m = map.number("max_range_m", laser.max_range_m, kPositive);
   laser.rate_hz = map.number("rate_hz", laser.rate_hz, kPositive);

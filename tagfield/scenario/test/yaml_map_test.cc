@@ -53,6 +53,14 @@ TEST(YamlMap, NamesTheNearestKeyToAnUnknownOne) {
             "f.yaml:2: unknown key 'rnage_m' (did you mean 'range_m'?)");
 }
 
+TEST(YamlMap, RecognizesTheKeyOnOfYaml11) {
+  YamlMap map = map_of("true: cart\n");
+  (void)map.text("on", "");
+  EXPECT_EQ(map_complaint([&] { map.finish(); }),
+            "f.yaml:1: unknown key 'true' (is it the key 'on', written by a program for YAML 1.1? "
+            "Quote it there: 'on')");
+}
+
 TEST(YamlMap, RefusesAKeyThatStandsTwice) {
   EXPECT_EQ(map_complaint([] { map_of("a: 1\nb: 2\na: 3\n"); }), "f.yaml:3: has 'a' twice");
 }

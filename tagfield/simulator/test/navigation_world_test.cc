@@ -78,6 +78,33 @@ TEST(NavigationWorld, RefusesRobotsInWalls) {
   EXPECT_TRUE(holds(complaint(scenario), "robots[0].kidnapped[0] (0.00, 9.00) is not on a floor"));
 }
 
+TEST(NavigationWorld, RefusesRobotsInRobots) {
+  Scenario scenario = small_drive();
+  scenario.robots.push_back(scenario.robots[0]);
+  scenario.robots[1].name = "second";
+  scenario.robots[1].location = {"s.yaml", 12};
+  EXPECT_TRUE(holds(complaint(scenario), "s.yaml:12: robots[1].start (")) << complaint(scenario);
+  EXPECT_TRUE(holds(complaint(scenario), "puts the robot into robot '" + scenario.robots[0].name));
+  scenario.robots[1].start.x += 0.6;
+  EXPECT_EQ(complaint(scenario), "no complaint");
+}
+
+TEST(NavigationWorld, RefusesAStartBesideTheGivenMap) {
+  OccupancyGrid map;
+  map.width = map.height = 20;
+  map.resolution_m = 0.05;
+  map.origin = {1.0, 1.0};
+  map.cells.assign(400, 0);
+  map.cells[0] = 100;
+  Scenario scenario = small_drive();
+  own_navigation(scenario).map = folder_of_test().with("b.yaml", map_to_yaml(map, "b.pgm"));
+  (void)folder_of_test().with("b.pgm", map_to_pgm(map));
+  EXPECT_TRUE(holds(complaint(scenario), "which is from (1.00, 1.00) to (2.00, 2.00)"))
+      << complaint(scenario);
+  own_navigation(scenario).start = StartBelief::kRandom;
+  EXPECT_EQ(complaint(scenario), "no complaint");
+}
+
 TEST(NavigationWorld, NeedsAWorldAndSomewhereToGo) {
   Scenario scenario = small_drive();
   scenario.world.path.clear();

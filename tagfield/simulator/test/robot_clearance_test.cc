@@ -77,6 +77,17 @@ TEST(RobotClearance, MindsObstacles) {
   EXPECT_NEAR(clearance.distance({0.5, 0.0, 0.0}, obstacles), 2.0 - std::sqrt(0.5) - 0.8, 1e-12);
 }
 
+TEST(RobotClearance, KnowsHowFarRobotsAreApart) {
+  const RobotClearance clearance = clearance_of({});
+  EXPECT_NEAR(clearance.distance_between({0.0, 0.0, 0.0}, {0.9, 0.0, 0.0}), 0.3, 1e-12);
+  EXPECT_NEAR(clearance.distance_between({0.0, 0.0, 0.0}, {0.0, 0.9, kPi / 2.0}), 0.4, 1e-12);
+  for (const PlanarPose& other :
+       {PlanarPose{}, PlanarPose{0.1, 0.0, 2.0}, PlanarPose{0.59, 0.3, 0.0}}) {
+    EXPECT_EQ(clearance.distance_between({}, other), 0.0) << other.x;
+  }
+  EXPECT_EQ(clearance.distance_between({}, {9.0, 0.0, 0.0}), RobotClearance::kMost);
+}
+
 TEST(RobotClearance, RoomIsNeverGivenAsMoreThanItIs) {
   const RobotClearance clearance = clearance_of({box_at(2.0, 0.0, 1.0, 1.0)});
   for (double x = 0.0; x < 1.5; x += 0.037) {
