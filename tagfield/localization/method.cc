@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <set>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/spelling.h"
@@ -22,15 +23,32 @@ std::vector<std::string> names_of(const std::vector<Method>& methods) {
 
 bool takes(const Method& method, const std::string& key) { return has_key(method.settings, key); }
 
+/// The keys of all settings, each once.
+std::vector<std::string> keys_of(const std::vector<Method>& methods) {
+  std::set<std::string> keys;
+  for (const Method& method : methods) {
+    for (const SettingHelp& help : method.settings) keys.insert(help.key);
+  }
+  return {keys.begin(), keys.end()};
+}
+
+/// " (did you mean 'stride_m'?)", or else the settings of the methods in use.
+std::string instead_of(const std::string& key, const std::vector<Method>& used,
+                       const std::vector<Method>& all) {
+  const std::string nearest = nearest_word(key, keys_of(all));
+  if (!nearest.empty()) return fmt::format(" (did you mean '{}'?)", nearest);
+  const std::vector<std::string> known = keys_of(used);
+  return known.empty() ? "" : fmt::format(" (known: {})", fmt::join(known, ", "));
+}
+
 /// Which methods accept the setting, or that none does.
-std::string who_takes(const std::string& key, const std::vector<Method>& all) {
+std::string who_takes(const std::string& key, const std::vector<Method>& used,
+                      const std::vector<Method>& all) {
   std::vector<Method> those;
-  std::vector<std::string> keys;
   for (const Method& method : all) {
     if (takes(method, key)) those.push_back(method);
-    for (const SettingHelp& help : method.settings) keys.push_back(help.key);
   }
-  if (those.empty()) return "is a setting of no method" + suggestion(key, keys);
+  if (those.empty()) return "is a setting of no method" + instead_of(key, used, all);
   return fmt::format("is a setting of {}", fmt::join(names_of(those), ", "));
 }
 
@@ -52,7 +70,7 @@ void refuse_unused(const MethodSettings& settings, const std::vector<Method>& us
     if (is_used) continue;
     fail(setting.location,
          fmt::format("{} is not used by {}: it {}", setting.key, fmt::join(names_of(used), ", "),
-                     who_takes(setting.key, all)));
+                     who_takes(setting.key, used, all)));
   }
 }
 

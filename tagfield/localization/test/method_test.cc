@@ -69,6 +69,12 @@ TEST(Method, SettingsThatNoneUsesAreRefusedWithWhoDoes) {
         refuse_unused({{"strid_m", "1", {}}}, {guess()}, all);
       }),
       "strid_m is not used by guess: it is a setting of no method (did you mean 'stride_m'?)");
+  const std::string said = error_of([&] {
+    refuse_unused({{"xyz", "1", {}}}, {find_method(all, "auto")}, all);
+  });
+  EXPECT_EQ(said.rfind("xyz is not used by auto: it is a setting of no method (known: ", 0), 0U)
+      << said;
+  EXPECT_EQ(said.find("max_range_m"), said.rfind("max_range_m")) << said;
 }
 
 TEST(Method, ASettingThatNoneUsesIsRefusedAfterOneThatIsUsed) {
