@@ -5,6 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
+#include <set>
+#include <utility>
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/spelling.h"
@@ -26,12 +30,34 @@ double finite_within(const nlohmann::json& value, double least, double most,
   return number;
 }
 
+/// Watches the keys while JSON is parsed: of two values with one key only the last would be left.
+class KeyWatch {
+ public:
+  bool operator()(int /*depth*/, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+    using Event = nlohmann::json::parse_event_t;
+    if (event == Event::object_start) open_.emplace_back();
+    if (event == Event::object_end && !open_.empty()) open_.pop_back();
+    if (event == Event::key && !open_.empty()) {
+      auto key = parsed.get<std::string>();
+      if (!open_.back().insert(key).second) repeated_ = std::move(key);
+    }
+    return true;
+  }
+  [[nodiscard]] const std::optional<std::string>& repeated() const { return repeated_; }
+
+ private:
+  std::vector<std::set<std::string>> open_;  ///< Keys of the objects around.
+  std::optional<std::string> repeated_;
+};
+
 }  // namespace
 
 JsonArguments::JsonArguments(const std::string& body) : values_(nlohmann::json::object()) {
   if (body.empty()) return;
-  values_ = nlohmann::json::parse(body, nullptr, false);
+  KeyWatch keys;
+  values_ = nlohmann::json::parse(body, std::ref(keys), false);
   if (values_.is_discarded()) throw Error("the body is not JSON");
+  if (keys.repeated()) throw Error(fmt::format("'{}' is given twice", *keys.repeated()));
   if (!values_.is_object()) throw Error("the body must be a JSON object");
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "adapters/ros2/discovery.h"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
@@ -35,6 +37,21 @@ DiscoveryRange range_of(const std::string& text) {
                   text));
 }
 
+/// Whether an address in numbers is one; other words may be names of machines.
+bool is_possible(const std::string& peer) {
+  const bool is_six = std::count(peer.begin(), peer.end(), ':') > 1;
+  if (is_six || peer.front() == '[') {
+    const std::size_t begin = peer.front() == '[' ? 1 : 0;
+    const std::string six = peer.substr(begin, peer.find_first_of("]%", begin) - begin);
+    in6_addr address{};
+    return inet_pton(AF_INET6, six.c_str(), &address) == 1;
+  }
+  const std::string host = peer.substr(0, peer.find(':'));
+  if (host.find_first_not_of("0123456789.") != std::string::npos) return true;
+  in_addr address{};
+  return inet_pton(AF_INET, host.c_str(), &address) == 1;
+}
+
 /// "a;b" → a, b
 std::vector<std::string> peers_of(const std::string& text) {
   constexpr const char* kAllowed =
@@ -42,13 +59,14 @@ std::vector<std::string> peers_of(const std::string& text) {
   std::vector<std::string> peers;
   std::istringstream list(text);
   for (std::string peer; std::getline(list, peer, ';');) {
-    if (peer.find_first_not_of(kAllowed) != std::string::npos) {
+    if (peer.empty() || peer.find_first_not_of(kAllowed) != std::string::npos ||
+        !is_possible(peer)) {
       throw Error(
           fmt::format("ROS_STATIC_PEERS has '{}', expected addresses of machines separated "
                       "by ';'",
                       peer));
     }
-    if (!peer.empty()) peers.push_back(peer);
+    peers.push_back(peer);
   }
   return peers;
 }

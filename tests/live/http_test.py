@@ -453,6 +453,19 @@ def what_is_too_much_or_no_http_is_refused(context):
 
 
 @case
+def handshakes_without_a_key_are_refused_in_json(context):
+    with served(context, context.shipped(PORTAL)) as server:
+        begin = (f"GET /api/live HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\nUpgrade: websocket\r\n"
+                 "Connection: Upgrade\r\n")
+        key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+        for headers in ("Sec-WebSocket-Version: 13\r\n", key, key + "Sec-WebSocket-Version: 12\r\n",
+                        "Sec-WebSocket-Key: short\r\nSec-WebSocket-Version: 13\r\n"):
+            head, _, body = exchange(server, (begin + headers + "\r\n").encode()).partition(b"\r\n\r\n")
+            check_equal(head[9:12], b"400", f"status with {headers!r}")
+            check_in("Sec-WebSocket-Key", json.loads(body)["error"], f"error with {headers!r}")
+
+
+@case
 def expectations_are_answered_before_the_body(context):
     with served(context, context.shipped(PORTAL), "--paused") as server:
         def asked(client, kind, origin=""):

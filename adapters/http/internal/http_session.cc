@@ -155,6 +155,13 @@ void HttpSession::on_read(beast::error_code error) {
   }
 }
 
+/// Whether a request for a WebSocket is complete; Beast would refuse others in plain text.
+bool is_handshake(const Request& request) {
+  constexpr std::size_t kKey = 24;
+  const auto key = request[http::field::sec_websocket_key];
+  return key.size() == kKey && request[http::field::sec_websocket_version] == "13";
+}
+
 /// Response that refuses the request; none if it is acceptable.
 std::optional<ApiResponse> HttpSession::refusal(const Request& request, bool has_body) const {
   const auto field = [&](http::field name) {
@@ -192,6 +199,11 @@ void HttpSession::handle(Request request) {
   if (is_get && beast::websocket::is_upgrade(request)) {
     if (path != "/api/live" || !context_.feed)
       return respond(api_error(404, "WebSockets are at /api/live"));
+    if (!is_handshake(request)) {
+      return respond(api_error(400,
+                               "a WebSocket needs Sec-WebSocket-Key (16 bytes in base64) and "
+                               "Sec-WebSocket-Version: 13"));
+    }
     stream_.expires_never();
     return serve_frames(context_, std::move(stream_), std::move(request), count_);
   }

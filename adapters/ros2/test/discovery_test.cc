@@ -71,8 +71,17 @@ TEST_F(DiscoveryTest, WhatRos2DoesNotKnowIsRefused) {
     EXPECT_THROW(discovery_of_environment(), Error) << range;
   }
   set("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET");
-  set("ROS_STATIC_PEERS", "\"/><Peer address=\"1.2.3.4");
-  EXPECT_THROW(discovery_of_environment(), Error);
+  for (const char* peers : {"\"/><Peer address=\"1.2.3.4", "300.1.1.1", "1.2.3", "a;;b", ";a",
+                            "1.2.3.4.5:7400", "[fe80::1::2]", "::g"}) {
+    set("ROS_STATIC_PEERS", peers);
+    EXPECT_THROW(discovery_of_environment(), Error) << peers;
+  }
+  for (const char* peers : {"192.168.0.7;robot.local;", "10.0.0.1:7400", "fe80::1%eth0",
+                            "[::1]:7400", "3com.example"}) {
+    set("ROS_STATIC_PEERS", peers);
+    EXPECT_NO_THROW(discovery_of_environment()) << peers;
+  }
+  set("ROS_STATIC_PEERS", "");
   set("ROS_LOCALHOST_ONLY", "yes");
   EXPECT_THROW(discovery_of_environment(), Error);
 }
