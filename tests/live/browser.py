@@ -67,18 +67,18 @@ def unfiltered(kind, line, above, size):
     return line
 
 
-# axe's violations with impact serious or critical.
+# axe's violations with impact serious or critical, or about landmarks.
 AXE = """
 const done = arguments[arguments.length - 1];
 axe.run(document, {resultTypes: ['violations']}).then(found => done(found.violations
-  .filter(one => one.impact === 'serious' || one.impact === 'critical')
+  .filter(one => one.impact === 'serious' || one.impact === 'critical' || one.id.startsWith('landmark-') || one.id === 'region')
   .map(one => one.id + ': ' + one.help + ': ' + one.nodes.map(node => node.target.flat().join(' ')).slice(0, 3).join(', '))),
   error => done(['axe failed: ' + error]));
 """
 
 
 def serious_barriers(driver, axe):
-    """Serious accessibility violations of the open page, found by axe-core with the source `axe`."""
+    """Serious accessibility violations, and those about landmarks, of the open page, found by axe-core with the source `axe`."""
     driver.execute_script(axe)
     return driver.execute_async_script(AXE)
 
