@@ -157,7 +157,7 @@ void add_compare_command(CLI::App& app, Action& chosen) {
   command->add_option("--out", arguments->out, "Folder for the page (default runs/RUN_and_OTHER)");
   add_json_option(*command, arguments->as_json, "compare.json");
   command->footer(
-      "The folder then holds compare.html, its figures/, compare.csv with a row for each tag, and\n"
+      "The folder then holds compare.html, its figures/, compare.csv with one row per tag, and\n"
       "compare.json. Runs of several seeds are compared by each tag's mean over them. Which of "
       "two\n"
       "settings is better over many conditions is for 'bench' and 'sweep'. For example\n"

@@ -264,7 +264,7 @@ std::string inventory_head(const InventorySummary& inventory) {
     text += fmt::format("  {:.0f} % {}", 100.0 * reached.share,
                         reached.time_s ? fmt::format("{:.2f} s", *reached.time_s) : "not reached");
   }
-  if (inventory.median_reads) text += fmt::format("; reads a tag: {:g}", *inventory.median_reads);
+  if (inventory.median_reads) text += fmt::format("; reads per tag: {:g}", *inventory.median_reads);
   return text + '\n';
 }
 

@@ -115,7 +115,7 @@ Figure errors_figure(const RunComparison& comparison) {
   }
   if (pairs.size() <= kMaxRows) {
     draw_pairs(figure, comparison, pairs);
-    figure.caption = "The error of each tag that both runs located, a row a tag.";
+    figure.caption = "The error of each tag that both runs located, one row per tag.";
   } else {
     draw_cloud(figure, comparison, pairs);
     figure.caption =

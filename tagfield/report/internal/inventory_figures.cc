@@ -133,7 +133,8 @@ Figure inventory_antennas_figure(const RunFiles& run) {
     add_data(figure.data, row->name, row->reader, row->tags, row->only, row->reads);
   }
   figure.caption =
-      "Tags that each antenna read at least once, a colour a reader; the full part is of tags that "
+      "Tags that each antenna read at least once, one colour per reader; the full part is of tags "
+      "that "
       "no other antenna read.";
   if (shown < rows.size()) {
     figure.caption += fmt::format(" The first {} of {}.", shown, rows.size());

@@ -100,7 +100,7 @@ std::string share_row(const InventoryShare& share, const InventorySummary& inven
 
 std::string shares_table(const InventorySummary& inventory, bool is_antenna) {
   std::vector<std::string> columns = {"Reader",     "Tags read", "Share",
-                                      "Only by it", "Reads",     "Reads a second"};
+                                      "Only by it", "Reads",     "Reads per second"};
   if (is_antenna) columns.insert(columns.begin(), "Antenna");
   std::string html = is_antenna ? "<h2>By antenna</h2>\n" : "<h2>By reader</h2>\n";
   html += inventory_head(columns, is_antenna ? "Antennas" : "Readers");
@@ -158,10 +158,10 @@ std::string inventory_numbers(const InventorySummary& inventory) {
                         seconds_or_never(reached.time_s));
   }
   if (inventory.median_reads) {
-    html += lead_number("Reads a tag (median)", tally(*inventory.median_reads));
+    html += lead_number("Reads per tag (median)", tally(*inventory.median_reads));
   }
   if (inventory.duration_s > 0.0) {
-    html += lead_number("Reads a second",
+    html += lead_number("Reads per second",
                         fmt::format("{:.0f}", inventory.reads / inventory.duration_s));
   }
   if (inventory.readers.size() > 1) {
