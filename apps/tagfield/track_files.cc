@@ -33,8 +33,8 @@ void stage_summary(const TrackSummary& summary, const TrackingRun& first, std::s
   folder.add("order.csv", orders_to_csv(first.orders));
   folder.add("tracks.json", to_json(summary));
   const TracksShown shown{
-      tags,         reads,         &summary,     &first.reads, &first.believed_poses,
-      &first.truth, &first.tracks, &first.orders};
+      tags,         reads,         &summary,      &first.reads, &first.believed_poses,
+      &first.truth, &first.tracks, &first.orders, first.line};
   const std::vector<Figure> figures = tracks_figures(shown);
   for (const Figure& figure : figures) {
     const bool is_map = figure.name == "tracks";

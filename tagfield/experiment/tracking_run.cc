@@ -79,6 +79,7 @@ void track(const TrackingSpec& spec, const KnownBeforehand& known, const RunCont
   TrackingOptions options = spec.options;
   options.seed = run.seed;
   run.tracks = track_tags(problem, options, control.threads, diagnostics);
+  run.line = spec.line;
   run.orders = passing_orders(problem, run.tracks, spec.line);
   run.outcomes = judge_tracks(run.seed, run.tracks, run.truth);
   run.order_outcomes =
@@ -93,6 +94,7 @@ void track_in_parts(const TrackingSpec& spec, const KnownBeforehand& known, int 
   TrackingOptions options = spec.options;
   options.seed = run.seed;
   WarningsOfParts warnings(parts.count);
+  run.line = spec.line;
   LocalizationProblem problem;
   for (std::size_t i = 0; i < parts.count; ++i) {
     if (on_progress) on_progress(static_cast<double>(i) / static_cast<double>(parts.count));

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "tagfield/experiment/in_parts.h"
@@ -24,6 +25,7 @@ struct TrackingRun {
   Truth truth;
   std::vector<TagTrack> tracks;
   std::vector<PassingOrder> orders;
+  std::optional<PassingLine> line;  ///< Of `orders`, if one was given.
   std::vector<TrackOutcome> outcomes;
   std::vector<OrderOutcome> order_outcomes;
 };

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "tagfield/report/axes.h"
 #include "tagfield/report/internal/figure_data.h"
@@ -94,7 +96,32 @@ std::string tracks_data(const std::vector<TagTrack>& tracks, std::size_t step) {
   return csv;
 }
 
-std::vector<LegendEntry> tracks_legend(const std::vector<TagTrack>& tracks, bool truth_known) {
+/// The part of the line that is within the axes.
+std::optional<std::pair<Place, Place>> drawn_line(const PassingLine& line, const Axes& axes) {
+  const Eigen::Vector2d along(std::cos(line.heading_rad), std::sin(line.heading_rad));
+  double from = -1e300;
+  double to = 1e300;
+  for (int i = 0; i < 2; ++i) {
+    const Scale& scale = i == 0 ? axes.x : axes.y;
+    const double low = scale.low - line.point(i);
+    const double high = scale.high - line.point(i);
+    if (std::abs(along(i)) < 1e-9) {
+      if (low > 0.0 || high < 0.0) return std::nullopt;
+      continue;
+    }
+    from = std::max(from, std::min(low / along(i), high / along(i)));
+    to = std::min(to, std::max(low / along(i), high / along(i)));
+  }
+  if (from >= to) return std::nullopt;
+  const auto at = [&](double distance_m) {
+    const Eigen::Vector2d p = line.point + distance_m * along;
+    return place_in(axes, p.x(), p.y());
+  };
+  return std::pair(at(from), at(to));
+}
+
+std::vector<LegendEntry> tracks_legend(const std::vector<TagTrack>& tracks, bool truth_known,
+                                       bool line_shown) {
   std::vector<LegendEntry> legend;
   const auto any = [&](TrackVerdict verdict) {
     return std::any_of(tracks.begin(), tracks.end(), [&](const TagTrack& tag) {
@@ -106,6 +133,7 @@ std::vector<LegendEntry> tracks_legend(const std::vector<TagTrack>& tracks, bool
     legend.push_back({Symbol::kLine, "line1", "ambiguous: most likely"});
   }
   if (truth_known) legend.push_back({Symbol::kLine, "true-line", "true path"});
+  if (line_shown) legend.push_back({Symbol::kLine, "rule", "line that tags pass"});
   legend.push_back({Symbol::kDiamond, "ink", "antenna"});
   return legend;
 }
@@ -147,7 +175,7 @@ void draw_antennas_of_tracks(Svg& svg, const Axes& axes, const std::vector<Anten
 }  // namespace
 
 Figure tracks_figure(const std::vector<TagTrack>& tracks, const std::vector<AntennaPose>& antennas,
-                     const Truth& truth) {
+                     const Truth& truth, const std::optional<PassingLine>& line) {
   Figure figure{"tracks", "", "Tracks from above", "", {}, ""};
   const Bounds box = bounds_of(tracks, antennas);
   Axes axes;
@@ -161,14 +189,19 @@ Figure tracks_figure(const std::vector<TagTrack>& tracks, const std::vector<Ante
   svg.height = kTracksTop + kPlotHeight + 50.0;
   const auto ways = true_ways(tracks, truth, axes);
   const std::size_t step = thinning_of(tracks);
-  draw_legend(svg, tracks_legend(tracks, !ways.empty()));
+  const auto passed = line ? drawn_line(*line, axes) : std::nullopt;
+  draw_legend(svg, tracks_legend(tracks, !ways.empty(), passed.has_value()));
   draw_axes(svg, axes, "x [m]", "y [m]");
+  if (passed) {
+    add_line(svg, passed->first, passed->second, styled("rule"), "the line that tags pass");
+  }
   for (const auto& [tag, way] : ways) add_polyline(svg, way, styled("true-line"));
   draw_tracks(svg, axes, tracks, step);
   draw_antennas_of_tracks(svg, axes, antennas);
   figure.caption =
       "Each tag’s most likely track from its first read to its last, which is a ring. x and y have "
       "different scales.";
+  if (passed) figure.caption += " Dashed: the line at which their order is counted.";
   if (step > 1) figure.caption += fmt::format(" One point in {} is drawn.", step);
   figure.data = tracks_data(tracks, step);
   return figure;

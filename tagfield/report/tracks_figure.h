@@ -3,6 +3,7 @@
 /// Tracks of tags as figures.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tagfield/report/figures.h"
@@ -11,9 +12,10 @@
 
 namespace tagfield {
 
-/// From above: the likeliest track of each tag, its true path if known, and the antennas.
+/// From above: the likeliest track of each tag, its true path if known, the antennas, and the line
+/// at which the tags' order is reported.
 Figure tracks_figure(const std::vector<TagTrack>& tracks, const std::vector<AntennaPose>& antennas,
-                     const Truth& truth);
+                     const Truth& truth, const std::optional<PassingLine>& line = {});
 
 /// The horizontal speed of each tag's likeliest track over time; for a few tags with individual
 /// colours and legend entries.

@@ -219,7 +219,7 @@ std::string tracks_sentence(const TrackNumbers& numbers, const std::vector<Passi
 }
 
 std::vector<Figure> tracks_figures(const TracksShown& shown) {
-  return {tracks_figure(*shown.tracks, *shown.antennas, *shown.truth),
+  return {tracks_figure(*shown.tracks, *shown.antennas, *shown.truth, shown.line),
           passings_figure(*shown.reads, *shown.orders), speeds_figure(*shown.tracks)};
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct TracksShown {
   const Truth* truth = nullptr;
   const std::vector<TagTrack>* tracks = nullptr;
   const std::vector<PassingOrder>* orders = nullptr;
+  std::optional<PassingLine> line{};  ///< The one of `orders`, if any.
 };
 
 /// The results in sentences of plain text: how many tags were tracked, with what errors, and in

@@ -118,7 +118,7 @@ def the_page_shows_gates_order_and_speeds(context):
     folder = track(context, context.shipped("conveyor"))
     page = (folder / "tracks.html").read_text(encoding="utf-8")
     for word in ('<figure id="tracks">', '<figure id="passings">', '<figure id="speeds">',
-                 "12 of 12 tags tracked.", "first to last: parcel_01, parcel_02, parcel_03",
+                 ">line that tags pass<", "12 of 12 tags tracked.", "first to last: parcel_01, parcel_02, parcel_03",
                  "at the line 11 of 11, at gate_1 11 of 11, at gate_2 11 of 11", "Passed gate_2",
                  "default-src 'none'"):
         check_in(word, page, "tracks.html")
