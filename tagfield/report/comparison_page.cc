@@ -11,6 +11,7 @@
 #include "tagfield/report/page_script.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/text.h"
+#include "tagfield/report/warnings_note.h"
 
 namespace tagfield {
 namespace {
@@ -196,15 +197,6 @@ std::string tags_table(const RunComparison& comparison) {
   return html;
 }
 
-std::string warnings_note(const RunComparison& comparison) {
-  if (comparison.warnings.empty()) return "";
-  std::string html = "<div class=\"note\"><p><strong>Warnings</strong></p><ul>\n";
-  for (const std::string& warning : comparison.warnings) {
-    html += "<li>" + escaped(warning) + "</li>\n";
-  }
-  return html + "</ul></div>\n";
-}
-
 }  // namespace
 
 std::string comparison_sentence(const RunComparison& comparison) {
@@ -231,8 +223,8 @@ std::string comparison_page(const RunComparison& comparison, const std::vector<F
              comparison.runs[0].name + " and " + comparison.runs[1].name + " – Tagfield comparison",
              {table_script().hash, figure_script().hash, link_script().hash}) +
          "<body>\n" + compared_header(comparison) + "<main>\n" + compared_numbers(comparison) +
-         warnings_note(comparison) + "<div class=\"figures\">\n" + drawn + "</div>\n" + missing +
-         whole_table(comparison) + tags_table(comparison) +
+         warnings_note(comparison.warnings, "compare.json") + "<div class=\"figures\">\n" + drawn +
+         "</div>\n" + missing + whole_table(comparison) + tags_table(comparison) +
          "</main>\n<footer>\n<p>Made by Tagfield; compare.csv and compare.json are beside this "
          "page, figures/ holds the figures. Differences are the second run minus the first; of "
          "several seeds, counts are means; the confidence assumes that tags are independent of "

@@ -11,6 +11,7 @@
 #include "tagfield/report/page_script.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/text.h"
+#include "tagfield/report/warnings_note.h"
 
 namespace tagfield {
 namespace {
@@ -124,14 +125,6 @@ std::string table(const Coverage& coverage) {
   return html;
 }
 
-std::string warnings(const Coverage& coverage) {
-  if (coverage.warnings.empty()) return "";
-  std::string html = "<div class=\"note\"><p><strong>Warnings</strong></p><ul>\n";
-  for (const std::string& warning : coverage.warnings)
-    html += "<li>" + escaped(warning) + "</li>\n";
-  return html + "</ul></div>\n";
-}
-
 std::vector<CoverageQuantity> quantities_of(const Coverage& coverage) {
   std::vector<CoverageQuantity> all = {CoverageQuantity::kProbability, CoverageQuantity::kMargin,
                                        CoverageQuantity::kPower};
@@ -139,9 +132,10 @@ std::vector<CoverageQuantity> quantities_of(const Coverage& coverage) {
   return all;
 }
 
-/// The figures in [first, last).
-std::string figures_html(const std::vector<Figure>& figures, std::size_t first, std::size_t last) {
-  std::string html = "<div class=\"figures\">\n";
+/// The figures in [first, last); `dense` ones are printed smaller.
+std::string figures_html(const std::vector<Figure>& figures, std::size_t first, std::size_t last,
+                         bool dense) {
+  std::string html = dense ? "<div class=\"figures dense\">\n" : "<div class=\"figures\">\n";
   for (std::size_t i = first; i < std::min(last, figures.size()); ++i) {
     html += figure_html(figures[i]);
   }
@@ -176,14 +170,16 @@ std::string coverage_page(const Coverage& coverage, const std::vector<Figure>& f
   std::size_t next = 0;
   for (const CoverageLayer& layer : coverage.layers) {
     maps += fmt::format("<h2>{:.2f} m above the floor</h2>\n", layer.height_m + 0.0);
-    maps += figures_html(figures, next, next + quantities_of(coverage).size());
+    maps += figures_html(figures, next, next + quantities_of(coverage).size(),
+                         coverage.layers.size() > 1);
     next += quantities_of(coverage).size();
   }
   return page_head(coverage.scenario + " – Tagfield coverage",
                    {table_script().hash, figure_script().hash, link_script().hash}) +
          "<body>\n" + header(coverage) + "<main>\n" + numbers(coverage) + facts(coverage) +
-         warnings(coverage) + maps + "<h2>The scenario’s tags</h2>\n" +
-         figures_html(figures, next, figures.size()) + table(coverage) +
+         warnings_note(coverage.warnings, "coverage.json") + maps +
+         "<h2>The scenario’s tags</h2>\n" + figures_html(figures, next, figures.size(), false) +
+         table(coverage) +
          "</main>\n<footer>\n<p>Made by Tagfield; the cells are beside this page as CSV files, the "
          "maps in figures/ as SVG files.</p>\n</footer>\n" +
          script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +

@@ -56,7 +56,7 @@ std::string view_section(const std::optional<RunView>& view) {
   return "<section class=\"screen\">\n<h2>The run over time</h2>\n" + view->html + "</section>\n";
 }
 
-/// The result comes first, with the run over time; then tables, figures, and the table of tags.
+/// The result comes first, with the run over time; then figures, and then all tables.
 std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
                     const std::optional<RunView>& view) {
   const Summary& summary = run.summary;
@@ -66,9 +66,9 @@ std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
                     link_script().hash}) +
          "<body>\n" + page_header(summary, run.tracked) + "<main>\n" +
          (is_inventory ? inventory_numbers(*summary.inventory) : key_numbers(summary)) +
-         run_facts(summary) + view_section(view) + inventory_tables(summary) +
-         methods_table(summary) + navigation_table(summary) + effects_table(summary) +
-         "<h2>Figures</h2>\n" + left_out_note(run) + figures_html(figures) +
+         run_facts(summary) + view_section(view) + "<h2>Figures</h2>\n" + left_out_note(run) +
+         figures_html(figures) + inventory_tables(summary) + methods_table(summary) +
+         navigation_table(summary) + effects_table(summary) +
          (run.tracked ? passings_table(run.tracked->orders) : "") +
          (is_inventory ? "" : "<h2>Tags</h2>\n" + tag_table(summary)) + "</main>\n" +
          page_footer() + script_html(table_script()) + script_html(figure_script()) +

@@ -5,14 +5,25 @@ namespace tagfield {
 namespace {
 
 constexpr PageScript kTables = {R"js((()=>{
-const number=text=>{const n=parseFloat(text.replace(/[,\s]/g,"").replace("−","-"));return isNaN(n)?null:n};
+const printed=40,number=text=>{const n=parseFloat(text.replace(/[,\s]/g,"").replace("−","-"));return isNaN(n)?null:n};
 for(const box of document.querySelectorAll(".table")){
  const hint=document.createElement("p");
  hint.className="hint";hint.textContent="The table continues to the right: scroll it sideways →";box.after(hint);
  const look=()=>{hint.hidden=box.scrollWidth<=box.clientWidth+1};
  new ResizeObserver(look).observe(box);look();
  const table=box.querySelector("table"),body=table&&table.tBodies[0];
- if(!body||body.rows.length<2||body.querySelector("[colspan],[rowspan]")||!table.tHead||table.tHead.rows.length>1)continue;
+ if(!body)continue;
+ const left=document.createElement("p");
+ left.className="left-out";hint.after(left);
+ const cut=()=>{
+  const shown=[...body.rows].filter(row=>!row.hidden);
+  for(const row of body.rows)row.classList.remove("unprinted");
+  for(const row of shown.slice(printed))row.classList.add("unprinted");
+  left.hidden=shown.length<=printed;
+  left.textContent=`The first ${printed} of ${shown.length} rows; the page on a screen has all.`;
+ };
+ addEventListener("beforeprint",cut);cut();
+ if(body.rows.length<2||body.querySelector("[colspan],[rowspan]")||!table.tHead||table.tHead.rows.length>1)continue;
  const rows=[...body.rows];
  [...table.tHead.rows[0].cells].forEach((head,column)=>{
   let rising=false;
@@ -29,7 +40,7 @@ for(const box of document.querySelectorAll(".table")){
   head.addEventListener("click",sort);
   head.addEventListener("keydown",event=>{if(event.key==="Enter")sort()});
  });
- if(rows.length<9)continue;
+ if(rows.length<9||rows[0].dataset.layout)continue;
  const filter=document.createElement("input");
  filter.type="search";filter.placeholder="Filter "+rows.length+" rows";filter.className="filter";
  filter.setAttribute("aria-label","Filter the rows");
@@ -40,7 +51,7 @@ for(const box of document.querySelectorAll(".table")){
  box.before(filter);
 }
 })();)js",
-                                "sha256-yC62jTOCeDzIDOn18NhFJcFIxMJid2IeikpAciF3vE8="};
+                                "sha256-C9oTCkp7YuAvIm4d9ZmDRbTGFkCAS7cz1zcjNetl/lQ="};
 
 constexpr PageScript kFigures = {R"js((()=>{
 const put=(tag,name)=>{const made=document.createElement(tag);made.className=name;return made};
@@ -70,14 +81,17 @@ for(const svg of document.querySelectorAll("figure svg")){
   key.addEventListener("keydown",event=>{if(event.key==="Enter"||event.key===" "){event.preventDefault();turn()}});
  }
  let marks=null;
+ const texts=new WeakMap();
+ svg.addEventListener("redrawn",()=>{marks=null});
  const ring=document.createElementNS(svg.namespaceURI,"circle");
  ring.setAttribute("class","ring");ring.setAttribute("r","6");ring.style.display="none";svg.append(ring);
  const collect=()=>{
   marks=[];
   for(const e of svg.querySelectorAll("circle,polyline,path,rect,line")){
    if(e===ring||e.closest(".key,[transform],clipPath"))continue;
-   const title=e.querySelector("title"),text=title?title.textContent:"";
-   if(title)title.remove();
+   const title=e.querySelector("title");
+   if(title){texts.set(e,title.textContent);title.remove()}
+   const text=texts.get(e)||"";
    if(e.tagName==="polyline"){
     const line=e.getAttribute("points").trim().split(/[\s,]+/).map(Number),at=[];
     for(let i=0;i+1<line.length;i+=2)at.push([line[i],line[i+1]]);
@@ -112,7 +126,7 @@ for(const svg of document.querySelectorAll("figure svg")){
   const p=new DOMPoint(event.clientX,event.clientY).matrixTransform(svg.getScreenCTM().inverse());
   let found=null,least=reach;
   for(const mark of marks){
-   if(mark.e.style.display==="none")continue;
+   if(mark.e.style.display==="none"||mark.e.parentNode.style.display==="none")continue;
    const q=nearest(mark,p),d=Math.hypot(q[0]-p.x,q[1]-p.y)+(mark.text?0:2);
    if(d<least){least=d;found={mark,q}}
   }
@@ -141,7 +155,7 @@ for(const svg of document.querySelectorAll("figure svg")){
 }
 addEventListener("scroll",()=>{tip.hidden=true},{passive:true});
 })();)js",
-                                 "sha256-aAjiRQq46UrQ25HhO+cBIcGAw6QRfrSVsIW+frkILjM="};
+                                 "sha256-GPSY23NC87ncCqPLQHRuP5hp1U97aAEkVvOxjEVdaKE="};
 
 constexpr PageScript kPlan = {R"js((()=>{
 const data=JSON.parse(document.getElementById("plan-data").textContent);
@@ -154,7 +168,9 @@ const show=()=>{
   const i=+circle.dataset.place,p=layout.places[i]/100;
   if(than<0){circle.setAttribute("fill",data.colors[band(data.edges,p)]||"#8a949e")}
   else{circle.setAttribute("fill",data.gain_colors[band(data.gain_edges,data.layouts[than].places[i]/100-p)])}
-  circle.firstChild.textContent=data.names[i]+": "+layout.places[i]+" %"+(than<0?"":", with "+data.layouts[than].antennas+" antennas "+data.layouts[than].places[i]+" %");
+  let title=circle.querySelector("title");
+  if(!title){title=document.createElementNS(circle.namespaceURI,"title");circle.append(title)}
+  title.textContent=data.names[i]+": "+layout.places[i]+" %"+(than<0?"":", with "+data.layouts[than].antennas+" antennas "+data.layouts[than].places[i]+" %");
  }
  for(const group of document.querySelectorAll("g.layout")){
   const n=+group.dataset.layout;
@@ -168,12 +184,13 @@ const show=()=>{
  document.getElementById("plan-legend").hidden=than>=0;
  document.getElementById("plan-gain-legend").hidden=than<0;
  for(const row of document.querySelectorAll("#plan-antennas tbody tr"))row.hidden=+row.dataset.layout!==at;
+ for(const svg of document.querySelectorAll("figure svg"))svg.dispatchEvent(new Event("redrawn"));
 };
 slider.addEventListener("input",show);other.addEventListener("change",show);
 document.getElementById("plan-controls").hidden=false;
 show();
 })();)js",
-                              "sha256-VvbjsjYiHpDCnuVeWCGlxUVPzReTIZLqX15cVAkDo9s="};
+                              "sha256-QcHd9ohdtO80WUH20JBF2O8zI1x7G3ylFEIZ33cVPNs="};
 
 }  // namespace
 

@@ -11,11 +11,11 @@
 #include "tagfield/report/internal/inventory_section.h"
 #include "tagfield/report/text.h"
 #include "tagfield/report/tracks_page.h"
+#include "tagfield/report/warnings_note.h"
 
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMaxWarnings = 50;
 constexpr std::size_t kMaxSeeds = 6;
 
 std::string paragraph(const std::string& text) { return fmt::format("<p>{}</p>\n", escaped(text)); }
@@ -61,19 +61,6 @@ std::string outcome_sentence(const Summary& summary) {
   if (!errors) return text + ". The true positions are not known, so neither are the errors.";
   return text + fmt::format(". The estimates are off by {} on average and by {} at most.",
                             spoken_length(errors->mean), spoken_length(errors->max));
-}
-
-std::string warnings_note(const std::vector<std::string>& warnings) {
-  if (warnings.empty()) return "";
-  std::string html = "<div class=\"note\"><p><strong>" +
-                     std::string(warnings.size() == 1 ? "A warning" : "Warnings") +
-                     "</strong></p><ul>\n";
-  const std::size_t shown = std::min(warnings.size(), kMaxWarnings);
-  for (std::size_t i = 0; i < shown; ++i) html += "<li>" + escaped(warnings[i]) + "</li>\n";
-  if (shown < warnings.size()) {
-    html += fmt::format("<li>and {} more in summary.json</li>\n", warnings.size() - shown);
-  }
-  return html + "</ul></div>\n";
 }
 
 std::string incomplete_note(const Summary& summary) {
@@ -243,7 +230,7 @@ std::string run_facts(const Summary& summary) {
   for (const std::string& pose : {pose_error_text(summary), compared_pose_text(summary)}) {
     if (!pose.empty()) html += "<div class=\"note pose\">" + paragraph(pose) + "</div>\n";
   }
-  return html + warnings_note(summary.warnings);
+  return html + warnings_note(summary.warnings, "summary.json");
 }
 
 std::string data_link(const std::string& file, const std::string& words, const std::string& csv) {

@@ -131,24 +131,40 @@ th[aria-sort=descending]::after{content:" ↓"}
 .swatches{display:flex;flex-wrap:wrap;gap:.2rem 1rem;font-size:.9rem;color:var(--muted);margin:.4rem 0 1rem}
 .swatches i{display:inline-block;width:.9rem;height:.9rem;border-radius:50%;vertical-align:-.1rem;
 margin-right:.35rem}
+.left-out{display:none}
+details.note{border-width:0 0 0 4px;border-radius:0 8px 8px 0}
+details.note ul{margin-top:.5rem}
 @media (min-width:900px){.figures{columns:2;column-gap:36px}}
-@media (max-width:600px){tbody th{max-width:38vw;overflow:hidden;text-overflow:ellipsis}
-.told tbody th{white-space:normal}}
+@media (max-width:600px){.facts{grid-template-columns:fit-content(36%) 1fr}
+tbody th{max-width:38vw;white-space:normal;overflow-wrap:break-word}}
 @page{size:A4;margin:11mm}
 @media print{html,body{font-size:9.6px}
 main,header,footer{max-width:none;padding:0}
 header{padding-top:0}
-h2{margin:1rem 0 .5rem;break-after:avoid}
-.numbers{margin:.8rem 0}
-.numbers dd{font-size:1.25rem}
+p,.note p{max-width:none}
+h2{margin:.8rem 0 .4rem;break-after:avoid}
+.numbers{margin:.6rem 0}
+.numbers div{padding:.4rem .7rem;min-width:0}
+.numbers dd{font-size:1.2rem}
+.note{margin:.5rem 0;padding:.4rem .8rem}
 .figures{columns:2;column-gap:7mm}
-figure{margin-bottom:1.1rem}
-figcaption{margin-top:.2rem}
-th,td{padding:.12rem .5rem}
+.figures.tall,.figures:has(figure:nth-of-type(5)){columns:3;column-gap:5mm}
+.figures.dense{columns:4;column-gap:4mm}
+figure{margin-bottom:.8rem}
+figure svg{max-height:88mm}
+.tall figure svg{max-height:140mm}
+figcaption{margin-top:.2rem;line-height:1.3}
+table{font-size:.9rem}
+th,td{padding:.08rem .5rem}
 tr{break-inside:avoid}
+details{margin:0;padding:0;border-width:0}
+details>:not(summary){display:none}
+summary{display:block}
+.note>summary::after,.more>summary::after{content:" – unfolded only on a screen";color:var(--muted);font-weight:400}
 .table{overflow:visible;background:none}
-footer{padding:.6rem 0 0}
-.screen,.filter,.hint,.data,.tip,.controls,.zoom{display:none}
+.left-out{display:block;color:var(--muted)}
+footer{padding:.4rem 0 0}
+.screen,.filter,.hint,.data,.tip,.controls,.zoom,.unprinted{display:none}
 .heat td,.numbers,.note{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )";
 

@@ -14,6 +14,7 @@
 #include "tagfield/report/passings_figure.h"
 #include "tagfield/report/text.h"
 #include "tagfield/report/tracks_figure.h"
+#include "tagfield/report/warnings_note.h"
 
 namespace tagfield {
 namespace {
@@ -97,13 +98,7 @@ std::string tracks_facts(const TrackSummary& summary) {
     html += tracks_fact("Squared errors over stated covariances",
                         fmt::format("{:.2f} on average; 1 is right, more is overconfident", *nees));
   }
-  html += "</dl>\n";
-  if (summary.warnings.empty()) return html;
-  html += "<div class=\"note\"><p><strong>Warnings</strong></p><ul>\n";
-  for (const std::string& warning : summary.warnings) {
-    html += "<li>" + escaped(warning) + "</li>\n";
-  }
-  return html + "</ul></div>\n";
+  return html + "</dl>\n";
 }
 
 std::string track_verdict(TrackVerdict verdict) {
@@ -232,7 +227,8 @@ std::string tracks_page(const TracksShown& shown, const std::vector<Figure>& fig
   return page_head(shown.summary->name + " – Tagfield tracks",
                    {table_script().hash, figure_script().hash, link_script().hash}) +
          "<body>\n" + tracks_header(shown) + "<main>\n" + tracks_numbers(shown) +
-         tracks_left_out(shown) + "<div class=\"figures\">\n" + drawn + "</div>\n" + missing +
+         warnings_note(shown.summary->warnings, "tracks.json") + tracks_left_out(shown) +
+         "<div class=\"figures\">\n" + drawn + "</div>\n" + missing +
          passings_table(*shown.orders) + "<h2>Tags</h2>\n" + tracks_table(shown) +
          tracks_facts(*shown.summary) +
          "</main>\n<footer>\n<p>Made by Tagfield; tracks.csv, verdicts.csv, order.csv and "

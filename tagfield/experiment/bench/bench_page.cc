@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tagfield/experiment/bench/bench_figures.h"
 #include "tagfield/experiment/internal/heat_table.h"
 #include "tagfield/experiment/internal/statistics.h"
@@ -10,11 +12,13 @@
 #include "tagfield/report/page_script.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/text.h"
+#include "tagfield/report/warnings_note.h"
 
 namespace tagfield {
 namespace {
 
 constexpr std::size_t kMaxName = 28;
+constexpr std::size_t kMostPrinted = 6;  ///< Figures of errors that are printed.
 constexpr const char* kErrorsText =
     "<p class=\"muted\">The share of the tags that were located no further off than the value "
     "below. "
@@ -57,13 +61,6 @@ std::string numbers(const Bench& bench, Timing timing) {
             fmt::format("{:.0f} s", bench.wall_s));
   }
   return html + "</dl>\n";
-}
-
-std::string warnings(const Bench& bench) {
-  if (bench.warnings.empty()) return "";
-  std::string html = "<div class=\"note\"><p><strong>Warnings</strong></p><ul>\n";
-  for (const std::string& warning : bench.warnings) html += "<li>" + escaped(warning) + "</li>\n";
-  return html + "</ul></div>\n";
 }
 
 std::string cell(const std::string& text) { return "<td>" + text + "</td>"; }
@@ -202,14 +199,30 @@ std::string legend(const Columns& columns) {
   return html + "</p>\n";
 }
 
+bool is_of_errors(const Figure& figure) { return figure.name.rfind("errors_", 0) == 0; }
+
 std::string figures_html(const std::vector<Figure>& figures, bool of_errors) {
   std::string drawn;
   std::string missing;
   for (const Figure& figure : figures) {
-    if ((figure.name.rfind("errors_", 0) == 0) != of_errors) continue;
+    if (is_of_errors(figure) != of_errors) continue;
     (figure.missing.empty() ? drawn : missing) += figure_html(figure);
   }
-  return (drawn.empty() ? "" : "<div class=\"figures\">\n" + drawn + "</div>\n") + missing;
+  const char* const kind = of_errors ? "figures" : "figures tall";
+  return (drawn.empty() ? "" : fmt::format("<div class=\"{}\">\n{}</div>\n", kind, drawn)) +
+         missing;
+}
+
+/// In a fold, which printing closes, if there are many.
+std::string error_figures(const std::vector<Figure>& figures) {
+  const auto count =
+      static_cast<std::size_t>(std::count_if(figures.begin(), figures.end(), is_of_errors));
+  const std::string html = kErrorsText + figures_html(figures, true);
+  if (count <= kMostPrinted) return "<h2>Errors by condition</h2>\n" + html;
+  return fmt::format(
+      "<details class=\"more\" open><summary><strong>Errors by condition</strong> <span "
+      "class=\"muted\">({} figures)</span></summary>\n{}</details>\n",
+      count, html);
 }
 
 }  // namespace
@@ -218,10 +231,12 @@ std::string bench_page(const Bench& bench, const std::vector<Figure>& figures, T
   return page_head(bench.name + " – Tagfield bench",
                    {table_script().hash, figure_script().hash, link_script().hash}) +
          "<body>\n" + header(bench) + "<main>\n" + heat_table(bench) + numbers(bench, timing) +
-         warnings(bench) + "<h2>Figures</h2>\n" + figures_html(figures, false) +
-         "<h2>All numbers</h2>\n" + tables(bench, timing) + legend(columns_of(bench, timing)) +
-         bound_notes(bench) + "<h2>Errors by condition</h2>\n" + kErrorsText +
-         figures_html(figures, true) +
+         warnings_note(bench.warnings, "bench.json") + "<h2>Figures</h2>\n" +
+         figures_html(figures, false) +
+         "<h2>All numbers</h2>\n"
+         "<p class=\"left-out\">The tables are unfolded only on a screen.</p>\n" +
+         tables(bench, timing) + legend(columns_of(bench, timing)) + bound_notes(bench) +
+         error_figures(figures) +
          "</main>\n<footer>\n<p>Made by Tagfield; bench.json, bench.csv and tags.csv are beside "
          "this page, the figures in figures/ as SVG files.</p>\n</footer>\n" +
          script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +

@@ -12,6 +12,7 @@
 #include "tagfield/report/page_script.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/text.h"
+#include "tagfield/report/warnings_note.h"
 
 namespace tagfield {
 namespace {
@@ -57,15 +58,6 @@ std::string sweep_numbers(const SweepResults& results) {
   if (!results.failed.empty()) html += big_of("Failed", grouped(results.failed.size()));
   if (results.rungs > 1) html += big_of("Rungs", grouped(results.rungs));
   return html + "</dl>\n";
-}
-
-std::string sweep_warnings(const SweepResults& results) {
-  if (results.warnings.empty()) return "";
-  std::string html = "<div class=\"note\"><p><strong>Warnings</strong></p><ul>\n";
-  for (const std::string& warning : results.warnings) {
-    html += "<li>" + escaped(warning) + "</li>\n";
-  }
-  return html + "</ul></div>\n";
 }
 
 std::string sweep_failures(const SweepResults& results) {
@@ -192,8 +184,8 @@ std::string sweep_page(const SweepResults& results, const std::vector<Figure>& f
   return page_head(results.plan.suite.name + " – Tagfield sweep",
                    {table_script().hash, figure_script().hash, link_script().hash}) +
          "<body>\n" + sweep_header(results) + "<main>\n" + sweep_numbers(results) +
-         sweep_warnings(results) + sweep_failures(results) + sweep_figures_html(figures) +
-         "<h2>Points</h2>\n" + sweep_table(results) +
+         warnings_note(results.warnings, "results.json") + sweep_failures(results) +
+         sweep_figures_html(figures) + "<h2>Points</h2>\n" + sweep_table(results) +
          "</main>\n<footer>\n<p>Made by Tagfield; results.sqlite (tables points, results, runs, "
          "tags, failures), results.json, points.csv and runs.csv are beside this page, the figures "
          "in figures/ as SVG files.</p>\n</footer>\n" +

@@ -57,13 +57,16 @@ TEST(Coverage, SumsUpAsJson) {
 }
 
 TEST(Coverage, IsAPageThatHoldsAllMaps) {
-  const Coverage coverage = two_cells();
+  Coverage coverage = two_cells();
+  coverage.warnings = {"one", "two", "three"};
   const std::vector<Figure> figures = coverage_figures(coverage, {});
   ASSERT_EQ(figures.size(), 4U);  // Probability, margin, power; the tags.
   const std::string page = coverage_page(coverage, figures);
   EXPECT_NE(page.find("a &lt;hall&gt;"), std::string::npos);
   EXPECT_NE(page.find("id=\"margin_1.25m\""), std::string::npos);
   EXPECT_NE(page.find("never read"), std::string::npos);
+  EXPECT_NE(page.find("<summary><strong>3 warnings</strong></summary>"), std::string::npos);
+  EXPECT_LT(page.rfind("<figure"), page.find("<table"));
   EXPECT_EQ(page.find("nan"), std::string::npos);
 }
 

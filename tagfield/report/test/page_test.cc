@@ -124,6 +124,22 @@ TEST(WriteReport, OfTagsThatMovedDoesNotOpenWithNoneLocated) {
   EXPECT_TRUE(holds(page, "3 of 3 tags read, "));
 }
 
+TEST(WriteReport, LeadsWithFigures) {
+  const RunFolder folder(FolderPlan{});
+  Summary summary = summary_of({});
+  summary.compared_methods.resize(2);
+  summary.effects.resize(1);
+  folder.put("summary.json", to_json(summary));
+  write_report(folder.path(), [](const RunFiles&) {
+    return RunView{"<div id=\"view\"></div>\n", "sha256-abc="};
+  });
+  const std::string page = folder.text("report.html");
+  EXPECT_TRUE(holds(page, "<h2>Methods</h2>"));
+  EXPECT_LT(page.find("<div id=\"view\">"), page.find("<figure"));
+  EXPECT_LT(page.rfind("<figure"), page.find("<table"));
+  EXPECT_EQ(unbalanced_tag(page), "");
+}
+
 TEST(WriteReport, MakesHostileNamesHarmless) {
   FolderPlan plan;
   plan.tags = {"<script>alert(1)</script>", "\"><img src=x onerror=alert(1)>", "'"};
