@@ -26,7 +26,7 @@ for(const svg of document.querySelectorAll("figure svg")){
    if(e.closest(".key,.axes,[transform],clipPath")||e.tagName!=="circle"&&!named.has(e)&&!e.classList.contains("halo"))continue;
    const box=e.getBBox();
    if(box.width>small||box.height>small||box.width+box.height===0)continue;
-   const at=middle(box);
+   const at=e.dataset.at?e.dataset.at.split(" ").map(Number):middle(box);
    centers.push(at);marks.push([e,at]);
   }
   for(const e of svg.querySelectorAll("text")){
@@ -131,7 +131,7 @@ for(const svg of document.querySelectorAll("figure svg"))svg.addEventListener("c
 });
 addEventListener("keydown",event=>{if(event.key==="Escape"&&chosen)choose(chosen)});
 })();)js",
-                               "sha256-b1sKKzGgK89f5vdXf+tePCMrV3smXtorrK96jupqeW8="};
+                               "sha256-0IkWXdyXsmXkT+Nu0zDsj8tUwa4+lAJQMO6BRr8kvmY="};
 
 }  // namespace
 

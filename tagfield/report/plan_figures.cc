@@ -81,9 +81,20 @@ void draw_position(Svg& svg, const MapView& map, const AntennaPlan& plan, std::s
                          error_text(plan.layouts[plan.chosen], place)));
 }
 
+/// The class of a reader's antennas.
+std::string class_of_reader(std::size_t number) { return fmt::format("reader{}", number); }
+
+/// The look of a part of an antenna at `at`, where it stays when the figure is zoomed.
+Look antenna_look(std::size_t reader, double opacity, const Place& at) {
+  Look look = filled(color_of_kind(reader), opacity);
+  look.attributes += fmt::format(" class=\"{}\" data-at=\"{} {}\"", class_of_reader(reader),
+                                 compact(at.x()), compact(at.y()));
+  return look;
+}
+
 /// A wedge that opens in the direction of the boresight, or a ring if that is vertical.
 void draw_planned_antenna(Svg& svg, const MapView& map, const PlannedAntenna& antenna,
-                          const std::string& color) {
+                          std::size_t reader) {
   const Place at = on_map(map, antenna.p_W);
   const Eigen::Vector2d level = antenna.boresight_W.head<2>();
   const std::string said = fmt::format("{} ({}), {:g} dBm", clean_text(antenna.name),
@@ -96,11 +107,11 @@ void draw_planned_antenna(Svg& svg, const MapView& map, const PlannedAntenna& an
              fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z", at.x(), at.y(),
                          tip.x() + 8.0 * across.x(), tip.y() + 8.0 * across.y(),
                          tip.x() - 8.0 * across.x(), tip.y() - 8.0 * across.y()),
-             filled(color, 0.45), said);
+             antenna_look(reader, 0.45, at), said);
   } else {
-    add_circle(svg, at, 11.0, filled(color, 0.35), said);
+    add_circle(svg, at, 11.0, antenna_look(reader, 0.35, at), said);
   }
-  Look body = filled(color, 1.0);
+  Look body = antenna_look(reader, 1.0, at);
   body.attributes += " stroke=\"#ffffff\" stroke-width=\"1.5\"";
   add_rectangle(svg, at - Place(5, 5), {10, 10}, body, said);
 }
@@ -117,6 +128,33 @@ std::vector<std::string> readers_of_all(const AntennaPlan& plan) {
   return readers;
 }
 
+/// One entry of the legend, at most as wide as the drawing; `draw` gets the place of its symbol.
+template <typename Draw>
+void add_key(Svg& svg, Place& at, const std::string& key, const std::string& text,
+             const Draw& draw) {
+  const double width = 28.0 + text_width(text);
+  if (at.x() > 2.0 && at.x() + width > kDrawingWidth) at = {2.0, at.y() + 22.0};
+  begin_group(svg, fmt::format("class=\"key\" data-key=\"{}\"", key));
+  draw(Place(at.x() + 9.0, at.y()));
+  add_text(svg, at + Place(22.0, 5.0), text, Anchor::kStart);
+  end_group(svg);
+  at.x() += width + 18.0;
+}
+
+/// Positions, and the antennas of each of a few readers. Returns the height.
+double draw_plan_legend(Svg& svg, const std::vector<std::string>& readers) {
+  Place at(2.0, 12.0);
+  add_key(svg, at, "place", "position of tags",
+          [&](const Place& place) { add_circle(svg, place, 6.0, filled("#8a949e", 1.0)); });
+  for (std::size_t i = 0; readers.size() <= kPlainKinds && i < readers.size(); ++i) {
+    add_key(svg, at, class_of_reader(i), "antenna of " + shortened(readers[i], 18),
+            [&](const Place& place) {
+              add_rectangle(svg, place - Place(6, 6), {12, 12}, filled(color_of_kind(i), 1.0));
+            });
+  }
+  return at.y() + 16.0;
+}
+
 Figure level_figure(const AntennaPlan& plan, const Level& level, std::size_t number,
                     const std::vector<Silhouette>& top_view) {
   Figure figure;
@@ -125,7 +163,9 @@ Figure level_figure(const AntennaPlan& plan, const Level& level, std::size_t num
       level.high_m - level.low_m < 0.005
           ? fmt::format("Tags at {:.2f} m", level.low_m + 0.0)
           : fmt::format("Tags from {:.2f} to {:.2f} m", level.low_m + 0.0, level.high_m + 0.0);
-  MapView map = make_map(figure.name, extent_of_plan(plan), {}, 6.0);
+  const std::vector<std::string> readers = readers_of_all(plan);
+  MapView map =
+      make_map(figure.name, extent_of_plan(plan), {}, draw_plan_legend(figure.svg, readers));
   figure.svg.height = map_bottom(map);
   draw_axes(figure.svg, map.axes, "x [m]", "y [m]");
   begin_clip(figure.svg, map.id + "-map", {map.axes.x.from, map.axes.y.to},
@@ -143,14 +183,13 @@ Figure level_figure(const AntennaPlan& plan, const Level& level, std::size_t num
              plan.layouts[plan.chosen].places[index]);
   }
   draw_outlines(figure.svg, map, top_view);
-  const std::vector<std::string> readers = readers_of_all(plan);
   for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
     begin_group(figure.svg, fmt::format("class=\"layout\" data-layout=\"{}\"{}", i,
                                         i == plan.chosen ? "" : " style=\"display:none\""));
     for (const PlannedAntenna& antenna : plan.layouts[i].antennas) {
       const auto reader = std::find(readers.begin(), readers.end(), antenna.reader);
       draw_planned_antenna(figure.svg, map, antenna,
-                           color_of_kind(static_cast<std::size_t>(reader - readers.begin())));
+                           static_cast<std::size_t>(reader - readers.begin()));
     }
     end_group(figure.svg);
   }
@@ -166,6 +205,13 @@ Figure level_figure(const AntennaPlan& plan, const Level& level, std::size_t num
   return figure;
 }
 
+std::vector<LegendEntry> curve_legend(bool has_bounds) {
+  std::vector<LegendEntry> legend = {{Symbol::kLine, "curve", "expected"},
+                                     {Symbol::kLine, "whisker", "95 % of runs"}};
+  if (has_bounds) legend.push_back({Symbol::kLine, "rule", "bound"});
+  return legend;
+}
+
 Figure curve_figure(const AntennaPlan& plan) {
   Figure figure{"plan_curve", "", "What each antenna adds", "", {}, ""};
   const auto most = static_cast<double>(plan.layouts.back().antennas.size());
@@ -174,14 +220,14 @@ Figure curve_figure(const AntennaPlan& plan) {
             tight_scale(0.0, 100.0, 5)};
   axes.x.from = 52.0;
   axes.x.to = kDrawingWidth - 24.0;
-  axes.y.from = 300.0;
-  axes.y.to = 34.0;
-  figure.svg.height = 348.0;
+  // For a position error the bound of the maximized score does not bound the number of tags.
+  const bool has_bounds = plan.aim.kind != PlannedAim::Kind::kPosition;
+  axes.y.to = draw_legend(figure.svg, curve_legend(has_bounds)) + 34.0;
+  axes.y.from = axes.y.to + 266.0;
+  figure.svg.height = axes.y.from + 48.0;
   draw_axes(figure.svg, axes, "antennas", fmt::format("tags {} [%]", words_for(plan.aim)));
   using Kind = PlannedAim::Kind;
   const double most_likely = plan.aim.kind == Kind::kReadProbability ? plan.aim.value : 1.0;
-  // For a position error the bound of the maximized score does not bound the number of tags.
-  const bool has_bounds = plan.aim.kind != Kind::kPosition;
   std::vector<Place> means;
   std::vector<Place> bounds;
   for (const PlannedLayout& layout : plan.layouts) {

@@ -12,6 +12,7 @@
 #include "tagfield/report/page_script.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/text.h"
+#include "tagfield/report/warnings_note.h"
 
 namespace tagfield {
 namespace {
@@ -148,10 +149,13 @@ std::string capital(std::string words) {
   return words;
 }
 
-std::string table_begin(const std::string& id, const std::vector<std::string>& columns) {
-  std::string html =
-      fmt::format("<div class=\"table told\" role=\"region\" tabindex=\"0\"{}><table>\n<thead><tr>",
-                  id.empty() ? "" : " id=\"" + id + "\"");
+/// `label` names the region for screen readers.
+std::string table_begin(const std::string& label, const std::vector<std::string>& columns,
+                        const std::string& id = "") {
+  std::string html = fmt::format(
+      "<div class=\"table told\" role=\"region\" aria-label=\"{}\" tabindex=\"0\"{}><table>\n"
+      "<thead><tr>",
+      escaped(label), id.empty() ? "" : " id=\"" + id + "\"");
   for (const std::string& column : columns) html += "<th scope=\"col\">" + column + "</th>";
   return html + "</tr></thead>\n<tbody>\n";
 }
@@ -172,10 +176,10 @@ std::string count_range(const ExpectedCount& count) {
 }
 
 std::string layouts_table(const AntennaPlan& plan) {
-  std::string html =
-      "<h2>By number of antennas</h2>\n" +
-      table_begin("", {"Antennas", "Readers", "Cost", "Tags " + words_for(plan.aim), "95 % of runs",
-                       "Score", "Bound", "Cross reads,<br>worst zone"});
+  std::string html = "<h2>By number of antennas</h2>\n" +
+                     table_begin("By number of antennas",
+                                 {"Antennas", "Readers", "Cost", "Tags " + words_for(plan.aim),
+                                  "95 % of runs", "Score", "Bound", "Cross reads,<br>worst zone"});
   for (const PlannedLayout& layout : plan.layouts) {
     html += plan_row(fmt::format("{}", layout.antennas.size()),
                      {fmt::format("{}", layout.readers), fmt::format("{:g}", layout.cost),
@@ -191,8 +195,8 @@ std::string zones_of_plan(const AntennaPlan& plan) {
   const PlannedLayout& layout = plan.layouts[plan.chosen];
   if (layout.zones.size() < 2) return "";
   std::string html = "<h2>By zone, as chosen</h2>\n" +
-                     table_begin("", {"Zone", "Tags", capital(words_for(plan.aim)), "95 % of runs",
-                                      "Cross-read", "95 % of runs"});
+                     table_begin("Zones", {"Zone", "Tags", capital(words_for(plan.aim)),
+                                           "95 % of runs", "Cross-read", "95 % of runs"});
   for (const PlannedZone& zone : layout.zones) {
     html += plan_row(zone.zone, {grouped(zone.tags), fmt::format("{:.1f}", zone.read.mean),
                                  count_range(zone.read), fmt::format("{:.1f}", zone.cross.mean),
@@ -202,9 +206,11 @@ std::string zones_of_plan(const AntennaPlan& plan) {
 }
 
 std::string antennas_table(const AntennaPlan& plan) {
-  std::string html = "<h2>The antennas</h2>\n" +
-                     table_begin("plan-antennas", {"Antenna", "Reader", "x [m]", "y [m]", "z [m]",
-                                                   "Looks along", "Power [dBm]", "Cost"});
+  std::string html =
+      "<h2>The antennas</h2>\n" + table_begin("Antennas",
+                                              {"Antenna", "Reader", "x [m]", "y [m]", "z [m]",
+                                               "Looks along", "Power [dBm]", "Cost"},
+                                              "plan-antennas");
   for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
     for (const PlannedAntenna& antenna : plan.layouts[i].antennas) {
       const Eigen::Vector3d& b = antenna.boresight_W;
@@ -228,8 +234,8 @@ std::string hard_table(const AntennaPlan& plan) {
         words_for(plan.aim));
   }
   std::string html = "<h2>Hard tags, as chosen</h2>\n" +
-                     table_begin("", {"Position", capital(words_for(plan.aim)) + " [%]",
-                                      "Best antenna", "Distance [m]", "Why"});
+                     table_begin("Hard tags", {"Position", capital(words_for(plan.aim)) + " [%]",
+                                               "Best antenna", "Distance [m]", "Why"});
   for (const HardPlace& hard : plan.hard) {
     const PlannedPlace& place = plan.places[hard.place];
     html += plan_row(fmt::format("{} ({:.2f}, {:.2f}, {:.2f}) m", clean_text(place.group),
@@ -245,7 +251,8 @@ std::string hard_table(const AntennaPlan& plan) {
 std::string sensitivity_table(const AntennaPlan& plan) {
   std::string html =
       "<h2>If something is different</h2>\n" +
-      table_begin("", {"The chosen layout", "Tags " + words_for(plan.aim), "95 % of runs", "Lost"});
+      table_begin("If something is different",
+                  {"The chosen layout", "Tags " + words_for(plan.aim), "95 % of runs", "Lost"});
   for (const PlanVariant& variant : plan.sensitivity) {
     html += plan_row(
         variant.what,
@@ -280,13 +287,6 @@ std::string check_text(const AntennaPlan& plan) {
         plan.check->cross.size(), std::ceil(layout.cross.low), std::floor(layout.cross.high));
   }
   return text + "</p></div>\n";
-}
-
-std::string plan_warnings(const AntennaPlan& plan) {
-  if (plan.warnings.empty()) return "";
-  std::string html = "<div class=\"note\"><p><strong>Warnings</strong></p><ul>\n";
-  for (const std::string& warning : plan.warnings) html += "<li>" + escaped(warning) + "</li>\n";
-  return html + "</ul></div>\n";
 }
 
 std::string plan_fact(const std::string& name, const std::string& value) {
@@ -349,13 +349,14 @@ std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figure
   for (const Figure& figure : figures) maps += figure_html(figure);
   maps += "</div>\n";
   std::string html =
-      page_head(plan.scenario + " – Tagfield plan", {table_script().hash, plan_script().hash}) +
+      page_head(plan.scenario + " – Tagfield plan", {table_script().hash, figure_script().hash,
+                                                     link_script().hash, plan_script().hash}) +
       "<body>\n<header>\n<p class=\"kind\">Tagfield plan</p>\n<h1><bdi>" +
       breakable(plan.scenario) + "</bdi></h1>\n";
   if (!plan.description.empty())
     html += "<p class=\"muted\">" + escaped(plan.description) + "</p>\n";
   html += "</header>\n<main>\n" + plan_numbers(plan) + plan_facts(plan) + check_text(plan) +
-          plan_warnings(plan) + "<h2>The hall from above</h2>\n" +
+          warnings_note(plan.warnings, "plan.json") + "<h2>The hall from above</h2>\n" +
           "<p>Each dot is a position where tags can be, " + dots_text(plan.aim) + ".</p>\n" +
           controls(plan) + maps + layouts_table(plan) + zones_of_plan(plan) + antennas_table(plan) +
           hard_table(plan) + sensitivity_table(plan) + "<h2>Tables</h2>\n<p>" +
@@ -366,8 +367,8 @@ std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figure
   return html +
          "</main>\n<footer>\n<p>Made by Tagfield; the same tables are beside this page, and "
          "layout.yaml is the chosen layout as a scenario.</p>\n</footer>\n" +
-         plan_data(plan) + script_html(table_script()) + script_html(plan_script()) +
-         "</body>\n</html>\n";
+         plan_data(plan) + script_html(table_script()) + script_html(figure_script()) +
+         script_html(link_script()) + script_html(plan_script()) + "</body>\n</html>\n";
 }
 
 }  // namespace tagfield

@@ -96,7 +96,7 @@ def scripts_run_by_their_hash(context):
     page = (out / "plan.html").read_text(encoding="utf-8")
     allowed = re.findall(r"'(sha256-[^']+)'", page.split("script-src", 1)[1].split(";", 1)[0])
     scripts = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
-    check_equal(len(scripts), 2, "scripts")
+    check_equal(len(scripts), 4, "scripts")
     for script in scripts:
         digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
         check_in("sha256-" + digest, allowed, "hashes that the page lets run")

@@ -26,6 +26,12 @@ conditions:
   - {{name: true pose}}
   - {{name: noise 0.5 rad, set: {{antennas.mobile.phase_noise_rad: 0.5}}}}
 """
+LONG_SUITE = """scenario: {scenario}
+seeds: 1
+methods: [hyperbola, least_squares, ml, sar, trilateration]
+conditions:
+""" + "".join(f"  - {{{{name: noise {tenths / 10} rad, set: {{{{antennas.mobile.phase_noise_rad: {tenths / 10}}}}}}}}}\n"
+              for tenths in range(1, 15))
 SWEEP = """scenario: {scenario}
 seeds: 2
 methods: [hyperbola, ml]
@@ -50,6 +56,17 @@ def pages_of(context):
         "coverage/coverage.html", "plan/plan.html")]
 
 
+def more_pages(context):
+    """Pages that are longer than those of pages_of(): robot that maps, portal, warnings, a bench of many conditions."""
+    context.run_well("run", context.shipped("paper_warehouse_slam"), "--out", "slam")
+    context.run_well("run", context.shipped("portal"), "--out", "portal")
+    context.run_well("coverage", context.shipped("two_antennas"), "--set", "model=multipath", "--out", "warned")
+    context.run_well("bench", context.write("long.yaml", LONG_SUITE.format(scenario=context.shipped("paper_warehouse"))),
+                     "--out", "long")
+    return [context.folder / page for page in (
+        "slam/report.html", "portal/report.html", "warned/coverage.html", "long/bench.html")]
+
+
 def open_page(one, page, width=1400, theme="light"):
     one.screen(width, 900, width < 500, theme)
     one.driver.get("about:blank")
@@ -70,6 +87,18 @@ def pointed_at(one, figure, share_x, share_y):
                     y=top + share_y * height)
     return one.driver.execute_script(
         "const tip = document.querySelector('.tip'); return tip.hidden ? '' : tip.textContent")
+
+
+def printed_pages(pages):
+    """Number of sheets of A4 that each page is printed to."""
+    counts = []
+    with browser(NO_WEBGL) as one:
+        for page in pages:
+            open_page(one, page, theme="dark")
+            printed = base64.b64decode(
+                one.command("Page.printToPDF", preferCSSPageSize=True, printBackground=True)["data"])
+            counts.append(len(re.findall(rb"/Type\s*/Page\b(?!s)", printed)))
+    return counts
 
 
 @case
@@ -198,11 +227,73 @@ def data_is_saved_without_the_network(context):
 
 @case
 def a_run_prints_to_two_pages(context):
-    folder = context.simulate("paper_warehouse")
+    check_equal(printed_pages([context.simulate("paper_warehouse") / "report.html"]), [2], "printed pages")
+
+
+def check_that_figures_lead(page):
+    text = page.read_text(encoding="utf-8").split("<main>", 1)[1]
+    head = text[:text.index("<figure")]
+    # The cells of a bench's first table are its figure of all methods and conditions.
+    check(head.count("<table") <= head.count('class="table heat'), f"{page}: a table leads")
+    check(head.count("<li>") <= 2 or "<details" in head, f"{page}: many warnings stand before the first figure")
+    folded = re.search(r'<details class="note"><summary><strong>([0-9]+) warnings', head)
+    if page.parent.name == "warned":
+        check(folded is not None and int(folded.group(1)) > 2, "the number of warnings is not at the top")
+
+
+@case
+def pages_lead_with_figures_and_print_to_two_pages(context):
+    pages = pages_of(context) + more_pages(context)
+    for page in pages:
+        check_that_figures_lead(page)
+    counts = printed_pages(pages)
+    check_equal({str(page.relative_to(context.folder)): count for page, count in zip(pages, counts) if count > 2}, {},
+                "pages with more than two printed ones")
+
+
+@case
+def long_tables_are_printed_in_part_and_say_so(context):
+    run = context.simulate("paper_warehouse")
+    page = (run / "report.html").read_text(encoding="utf-8")
+    row = re.search(r"<tr><th scope=\"row\" title=\"tag1\">.*?</tr>\n", page).group(0)
+    (run / "report.html").write_text(page.replace(row, 60 * row), encoding="utf-8")
     with browser(NO_WEBGL) as one:
-        open_page(one, folder / "report.html", theme="dark")
-        printed = base64.b64decode(one.command("Page.printToPDF", preferCSSPageSize=True, printBackground=True)["data"])
-    check_equal(len(re.findall(rb"/Type\s*/Page\b(?!s)", printed)), 2, "printed pages")
+        open_page(one, run / "report.html")
+        count = "return [...document.querySelectorAll('[aria-label=Tags] tbody tr')].filter(e => e.offsetHeight).length"
+        said = "return [...document.querySelectorAll('.left-out')].filter(e => e.offsetHeight).map(e => e.textContent)"
+        check_equal((one.driver.execute_script(count), one.driver.execute_script(said)), (69, []), "rows on a screen")
+        one.command("Emulation.setEmulatedMedia", media="print")
+        check_equal(one.driver.execute_script(count), 40, "printed rows")
+        check_equal(one.driver.execute_script(said), ["The first 40 of 69 rows; the page on a screen has all."],
+                    "what stands below the table")
+
+
+@case
+def figures_of_a_plan_follow_its_controls(context):
+    context.run_well("plan", context.shipped("plan/room"), "--samples", "8", "--out", "plan")
+    positions = read_csv(context.folder / "plan/plan_positions.csv")
+    with browser(NO_WEBGL) as one:
+        open_page(one, context.folder / "plan/plan.html")
+        ask = one.driver.execute_script
+        place = "const e = document.querySelector('#plan_level_1 circle.place'); "
+        share = ask(place + "const s = e.ownerSVGElement.viewBox.baseVal;"
+                            "return [e.cx.baseVal.value / s.width, e.cy.baseVal.value / s.height, +e.dataset.place]")
+        for count in (0, 2):  # Tips, and the layouts whose antennas are drawn, follow the slider.
+            ask("const e = document.getElementById('plan-count'); e.value = arguments[0];"
+                "e.dispatchEvent(new Event('input'))", count)
+            said = pointed_at(one, "plan_level_1", *share[:2])
+            wanted = round(100 * float(positions[share[2]][f"p_{count + 1}"]))
+            check_in(f": {wanted} %", said, f"tip of a position with {count + 1} antennas")
+            check_equal(ask("return [...document.querySelectorAll('#plan_level_1 g.layout')]"
+                            ".filter(e => e.style.display !== 'none').map(e => +e.dataset.layout)"), [count], "layouts")
+        shown = "return [...document.querySelectorAll('#plan_level_1 [class=reader0]')].filter(e => e.style.display !== 'none').length"
+        before = ask(shown)
+        ask("document.querySelector('#plan_level_1 g.key[data-key=reader0]').dispatchEvent(new MouseEvent('click'))")
+        check(before > 0, "no antenna is drawn")
+        check_equal(ask(shown), 0, "antennas of a hidden reader")
+        ask("document.querySelector('#plan_level_1 .zoom button').click()")
+        check(ask("return document.querySelector('#plan_level_1 svg').classList.contains('zoomed')"), "it is not zoomed")
+        check_equal(one.complaints(), [], "the console")
 
 
 @case

@@ -45,6 +45,9 @@ TEST(PlanPage, HoldsAllAndNothingBreaksOut) {
   EXPECT_NE(page.find("id=\"plan-count\""), std::string::npos);
   EXPECT_NE(page.find("too weak"), std::string::npos);
   EXPECT_EQ(page.find("nan"), std::string::npos);
+  EXPECT_NE(page.find("data-key=\"reader0\""), std::string::npos);
+  EXPECT_NE(page.find("aria-label=\"Zones\""), std::string::npos);
+  EXPECT_EQ(page.find("role=\"region\" tabindex"), std::string::npos);  // Each has a name.
   const std::string begin = "id=\"plan-data\">";
   const std::size_t at = page.find(begin) + begin.size();
   const auto data = nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
