@@ -257,9 +257,9 @@ std::optional<PythonFound> python_found(const std::string& program) {
                             std::regex_replace(std::string(kAsk), std::regex("\""), "\\\"")));
   if (!answer) return std::nullopt;
   const std::string line = std::regex_replace(*answer, std::regex("\n"), ", ");
-  const auto misses = [&](const char* what) { return line.find(what) != std::string::npos; };
+  const auto says = [&](const char* what) { return line.find(what) != std::string::npos; };
   return PythonFound{line.substr(0, line.find(' ')), line,
-                     !misses("tagfield missing") && !misses("numpy missing")};
+                     !says("tagfield missing") && !says("numpy missing")};
 }
 
 /// Debian's packages are for /usr/bin/python3, which need not be the first on the PATH.

@@ -87,7 +87,7 @@ def test_ctrl_c_ends_localization_between_tags(run):
     ({"tag_heights_m": 1}, "localize: tag_heights_m is 1, expected a mapping from name to number"),
     ({"tag_heights_m": {"tag1": np.nan}}, "localize: tag_heights_m: 'tag1' is nan, expected a finite number"),
     ({"pose_sigma_m": -1}, "localize: pose_sigma_m is -1, expected a finite number, 0 or more"),
-    ({"height": 3}, "localize: height is 3, expected text"),
+    ({"vertical_side": 3}, "localize: vertical_side is 3, expected text"),
     ({"side": 3}, "localize: side is 3, expected text"),
     ({"box_m": "x"}, "localize: box_m is 'x', expected a list of numbers"),
     ({"offsets_rad": {"mobile": np.inf}}, "localize: offsets_rad: 'mobile' is inf, expected a finite number"),
