@@ -39,7 +39,8 @@ TEST(JsonArguments, FaultsNameTheKey) {
   EXPECT_EQ(fault("{", nothing), "the body is not JSON");
   EXPECT_EQ(fault(R"({"n": 1, "m": {"n": [{"n": 2}]}, "n": 3})", number), "'n' is given twice");
   EXPECT_EQ(fault(R"({"m": [{"k": 1}, {"k": 1, "k": 2}]})", nothing), "'k' is given twice");
-  EXPECT_EQ(fault(R"({"n": 0.5, "m": {"n": [{"n": 2}]}})", number), "'m' is not known here");
+  EXPECT_EQ(fault(R"({"n": 0.5, "m": {"n": [{"n": 2}]}})", number),
+            "'m' is not known here (did you mean 'n'?)");
   EXPECT_EQ(fault("[1]", nothing), "the body must be a JSON object");
   EXPECT_EQ(fault(R"({"n": 1})", nothing), "'n' is not known here");
   EXPECT_EQ(fault("{}", number), "'n' is missing");
