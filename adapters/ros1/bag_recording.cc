@@ -157,7 +157,8 @@ bool is_truth_enough(const BagOptions& options, const BagRecording& recording) {
          !recording.truth.antenna_poses.empty();
 }
 
-PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRecording& recording) {
+PoseSet believed_of(const std::string& path, BagContent& content, const BagOptions& options,
+                    const BagRecording& recording) {
   if (is_truth_enough(options, recording)) return {};
   if (!content.given_poses.empty()) {
     return {"given", content.truth_frame, tidy_poses(std::move(content.given_poses))};
@@ -165,8 +166,12 @@ PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRec
   sort_by_stamp(content.updates);
   keep_first(content.updates,
              [](const RecordedUpdate& update) -> std::string_view { return update.antenna; });
-  TransformedPoses found =
-      poses_from_transforms(std::move(content.transforms), content.updates, options.frames);
+  TransformedPoses found;
+  try {
+    found = poses_from_transforms(std::move(content.transforms), content.updates, options.frames);
+  } catch (const Error& error) {
+    fail({path, 0}, error.what());
+  }
   if (!found.poses.empty() && found.frame == recording.truth_frame) {
     add_fixed_antennas(recording, found.poses);
   }
@@ -217,7 +222,7 @@ BagRecording read_bag(const std::string& path, const BagOptions& options,
   recording.reads = tidy_reads(std::move(recording.reads), path, diagnostics);
   recording.truth = tidy_truth(std::move(content.truth));
   recording.truth_frame = content.truth_frame;
-  recording.believed = believed_of(content, options, recording);
+  recording.believed = believed_of(path, content, options, recording);
   return recording;
 }
 

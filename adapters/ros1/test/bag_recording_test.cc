@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "adapters/ros1/test/bag_writer.h"
 #include "tagfield/base/test/error_text.h"
@@ -482,6 +483,29 @@ TEST(ReadBag, NamesMessageAndFieldOfBadNumbers) {
   EXPECT_TRUE(
       contains(with_read([](TagRead& r) { r.tag = std::string(5000, 'x'); }), "5000 bytes"));
   EXPECT_TRUE(contains(with_read([](TagRead& r) { r.antenna = "b"; }), "antenna is 'b', expected"));
+}
+
+TEST(ReadBag, NamesTheBagWhoseTransformsAreDecadesApart) {
+  EXPECT_EQ(
+      complaint_of([](BagWriter& writer) {
+        writer.reads(at(1.0), "a", {});
+        writer.transform("/tf", at(1.0), "odom", "antenna", {});
+        writer.transform("/tf", at(3e9), "odom", "antenna", from_translation({1.0, 0.0, 0.0}));
+      }),
+      "run.bag: stamps of transforms are over 60 years apart");
+}
+
+TEST(ReadBag, GivesNoPoseInGapsOfTransformsThatMoveTheAntenna) {
+  const BagRecording bag = written([](BagWriter& writer) {
+    for (const double t : {0.2, 1.0, 1.5, 2.5, 3.5}) writer.reads(at(t), "a", {});
+    for (const auto& [t, x] : std::map<double, double>{
+             {0.0, 0.0}, {0.4, 0.1}, {1.4, 0.4}, {1.8, 0.5}, {3.0, 0.5}, {4.0, 0.505}}) {
+      writer.transform("/tf", at(t), "odom", "antenna", from_translation({x, 0.0, 0.0}));
+    }
+  });
+  std::vector<Time> stamps;
+  for (const AntennaPose& pose : bag.believed.poses) stamps.push_back(pose.stamp);
+  EXPECT_EQ(stamps, (std::vector<Time>{at(0.2), at(1.5), at(2.5), at(3.5)}));
 }
 
 TEST(ReadBag, NamesBadPosesOfAllKinds) {
