@@ -201,12 +201,18 @@ Json describe_map(const std::string& path, Diagnostics& diagnostics) {
   const auto count = [&](bool (*is)(std::int8_t)) {
     return std::count_if(map.cells.begin(), map.cells.end(), is);
   };
+  const auto free = count(is_free);
+  const auto occupied = count(is_occupied);
+  if (free == 0 || occupied == 0) {
+    diagnostics.warn({path, 0}, fmt::format("the map has no {} cell, so no robot can use it",
+                                            free == 0 ? "free" : "occupied"));
+  }
   return {{"kind", "map"},
           {"cells", fmt::format("{} x {}", map.width, map.height)},
           {"resolution_m", map.resolution_m},
           {"origin_m", {map.origin.x(), map.origin.y()}},
-          {"free_cells", count(is_free)},
-          {"occupied_cells", count(is_occupied)}};
+          {"free_cells", free},
+          {"occupied_cells", occupied}};
 }
 
 Json describe_calibration(const std::string& path) {

@@ -187,6 +187,15 @@ def check_takes_every_kind_of_file(context):
     check_in("tags: 1: ", text, "check reads.csv")
 
 
+@case
+def check_warns_of_maps_that_no_robot_can_use(context):
+    context.write("map.yaml", "image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 0\n"
+                              "occupied_thresh: 0.65\nfree_thresh: 0.196\n")
+    for grey, lacking in ((254, "occupied"), (0, "free"), (205, "free")):
+        context.write("map.pgm", b"P5\n3 2\n255\n" + bytes([grey] * 6))
+        check_in(f"map.yaml: the map has no {lacking} cell", context.run_well("check", context.folder / "map.yaml").err, "check")
+
+
 def results_of_all_commands(context):
     """A folder of each command, made quickly, and of each of its files what `check` is to call it."""
     out = context.folder
