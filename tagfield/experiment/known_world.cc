@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/experiment/known_world.h"
 
+#include <algorithm>
 #include <complex>
 #include <map>
 #include <memory>
@@ -124,6 +125,12 @@ TracedReply reply_to(const KnownAntenna& known, const Carrier& carrier, const Ri
   return reply;
 }
 
+/// Whether the model of an antenna's waves has reflections.
+bool reflects(const AntennaParameters& antenna) {
+  const RadioModel* const model = physical(antenna);
+  return model != nullptr && model->effects.reflections && model->reflection_order > 0;
+}
+
 KnownTag tag_named(const KnownWorld& known, const std::string& tag) {
   const auto found = known.tags.find(tag);
   return found == known.tags.end() ? KnownTag{default_tag_model()} : found->second;
@@ -169,13 +176,17 @@ TracedReplies trace(const KnownWorld& known, const std::string& tag, const Eigen
 }  // namespace
 
 TraceReplies traced_replies(const Scenario& scenario) {
+  const bool any_reflects =
+      std::any_of(scenario.antennas.begin(), scenario.antennas.end(),
+                  [](const AntennaSpec& antenna) { return reflects(antenna.parameters); });
+  if (!any_reflects) return nullptr;
   auto known = std::make_shared<KnownWorld>();
   known->world = radio_world_of(scenario);
   for (const AntennaSpec& antenna : scenario.antennas) {
     if (physical(antenna.parameters) == nullptr || !meets_world(antenna.parameters)) continue;
     known->antennas.emplace(antenna.parameters.name, antenna.parameters);
   }
-  if (known->antennas.empty()) return nullptr;
+  if (known->world->scene.facets().empty()) return nullptr;
   for (const TagSpec& tag : scenario.tags) {
     if (moves(tag)) continue;
     const auto model = tag.model ? tag.model : default_tag_model();

@@ -10,8 +10,8 @@ namespace tagfield {
 
 /// Traces replies through the scenario's world with the antennas' own models. Tags have their model
 /// and orientation of the scenario; those with unknown IDs have the default model and stand
-/// upright. Diffuse waves are left out, as they are unknown. Null if no antenna's waves interact
-/// with the world.
+/// upright. Diffuse waves are left out, as they are unknown. Null if nothing is reflected: no
+/// antenna's model has reflections, or the world has no surfaces.
 TraceReplies traced_replies(const Scenario& scenario);
 
 }  // namespace tagfield
