@@ -11,9 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "tagfield/base/median.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/at_rest.h"
+#include "tagfield/localization/drift.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
 #include "tagfield/localization/holograms/hologram.h"
 #include "tagfield/localization/holograms/segments.h"
@@ -297,6 +299,18 @@ void refuse_moved(const LocalizationProblem& problem, double late_s, Localizatio
   }
 }
 
+/// Whether the drift of the poses explains as much as the latency does: it usually moves the
+/// antennas by at most three standard deviations of that.
+bool is_drift(const LocalizationProblem& problem, const LocalizationResult& result, double late_s) {
+  constexpr double kWithin = 3.0;
+  if (problem.drift.empty()) return false;
+  std::vector<double> travels;
+  for (const std::size_t i : claimed_tags(problem, result)) {
+    travels.push_back(mean_travel(problem, problem.samples.at(result.estimates[i].tag), late_s));
+  }
+  return median(std::move(travels)) <= kWithin * usual_drift_while_read(problem);
+}
+
 }  // namespace
 
 void refuse_common_latency(const LocalizationProblem& problem, int threads,
@@ -304,7 +318,7 @@ void refuse_common_latency(const LocalizationProblem& problem, int threads,
   if (!result.corrected_poses.empty() && stated_pose_error(problem)) return;
   if (!latency_by(problem, threads, result, kFewReads, kSuspicious)) return;
   const std::optional<double> late_s = latency_by(problem, threads, result, kManyReads, kCertain);
-  if (!late_s) return;
+  if (!late_s || is_drift(problem, result, *late_s)) return;
   warn_of_latency(*late_s, diagnostics);
   refuse_moved(problem, *late_s, result);
 }

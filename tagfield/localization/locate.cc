@@ -110,6 +110,7 @@ LocalizationResult held_against(const LocalizationProblem& problem, Localization
   if (is_by_phase(result.method) && !problem.has_phases) {
     refuse_without_phases(problem, result);
   } else if (is_by_phase(result.method)) {
+    refuse_drifting(problem, result, diagnostics);
     if (result.method != "multipath") add_mirror_images(problem, threads, result);
     drop_candidates_behind(problem, result);
     refuse_chance(problem, result);

@@ -87,6 +87,57 @@ TEST(Drift, TagsReadByAntennasAtRestAndReferenceTagsHaveNone) {
             std::sqrt(2.0) * kSigma_m);
 }
 
+/// A drive of 10 m along x whose heading is a random walk of `rate` [rad²/m]; 21 reads.
+LocalizationProblem problem_of_a_turning_drive(double rate) {
+  constexpr int kSteps = 2000;
+  LocalizationProblem problem;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double s = 10.0 * i / kSteps;
+    Drift drift;
+    drift.stamp = time_from_seconds(s);
+    drift.origin_W = {s, 0.0};
+    drift.since_last(2, 2) = i == 0 ? 0.0 : rate * 10.0 / kSteps;
+    problem.drift["antenna"].push_back(drift);
+    if (i % 100 != 0) continue;
+    PhaseSample sample;
+    sample.stamp = drift.stamp;
+    sample.frequency_hz = 9e8;
+    sample.p_WA = {s, 0.0, 1.0};
+    problem.samples["tag"]["antenna"].push_back(sample);
+  }
+  return problem;
+}
+
+// A random walk of the heading of variance q s leaves q s³/3 across after the way s.
+TEST(Drift, WhileATagIsReadIsThatFromTheMiddleOfItsReads) {
+  constexpr double kRate = 1e-4;
+  double mean = 0.0;
+  for (int i = -10; i <= 10; ++i) mean += kRate * std::pow(std::abs(0.5 * i), 3.0) / 3.0 / 21.0;
+  const LocalizationProblem problem = problem_of_a_turning_drive(kRate);
+  EXPECT_NEAR(drift_while_read(problem, "tag"), std::sqrt(0.5 * mean), 1e-3 * std::sqrt(mean));
+  EXPECT_EQ(usual_drift_while_read(problem), drift_while_read(problem, "tag"));
+  EXPECT_EQ(drift_while_read(problem, "another"), 0.0);
+}
+
+TEST(Drift, OverHalfAWavelengthWhileATagIsReadRefusesAllTags) {
+  const double unit = drift_while_read(problem_of_a_turning_drive(1.0), "tag");
+  const auto refused = [&](double drift_m, const char* method, bool has_reference) {
+    LocalizationProblem problem = problem_of_a_turning_drive(std::pow(drift_m / unit, 2.0));
+    if (has_reference) problem.reference_tags["other"] = {0.0, 0.0, 1.0};
+    LocalizationResult result = located_at({4.0, 3.0, 1.0});
+    result.method = method;
+    Diagnostics diagnostics;
+    refuse_drifting(problem, result, diagnostics);
+    const bool is_refused = result.estimates.front().verdict == Verdict::kNotLocated;
+    EXPECT_EQ(diagnostics.warnings().size(), is_refused ? 1U : 0U);
+    return is_refused;
+  };
+  EXPECT_FALSE(refused(0.16, "joint", false));  // Half a wavelength is 0.167 m.
+  EXPECT_TRUE(refused(0.17, "joint", false));
+  EXPECT_FALSE(refused(0.17, "joint", true));
+  EXPECT_TRUE(refused(0.17, "hyperbola", true));
+}
+
 TEST(Drift, IsMadeOfThePosesUnlessTheirErrorIsStated) {
   std::vector<AntennaPose> poses;
   for (int second = 0; second <= 2; ++second) {
