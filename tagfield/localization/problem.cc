@@ -11,6 +11,7 @@
 #include "tagfield/localization/phase_jumps.h"
 #include "tagfield/localization/phase_unit.h"
 #include "tagfield/localization/pi_ambiguity.h"
+#include "tagfield/localization/pose_jumps.h"
 #include "tagfield/localization/stops.h"
 
 namespace tagfield {
@@ -118,6 +119,11 @@ std::optional<MapError> map_error_of(const KnownBeforehand& known,
   return error;
 }
 
+/// Whether the poses are stated to have no error, so that even a jump is no error.
+bool is_exact(const std::optional<PoseErrorModel>& error) {
+  return error && error->sigma_m <= 0.0 && error->yaw_sigma_rad <= 0.0;
+}
+
 std::map<std::string, std::vector<Drift>> drift_of(
     const KnownBeforehand& known, const std::map<std::string, BelievedTrack>& tracks) {
   std::map<std::string, std::vector<Drift>> by_antenna;
@@ -202,6 +208,7 @@ LocalizationProblem make_problem(const EachRead& each_read, const std::vector<An
   problem.heights = known.heights;
   problem.reference_tags = known.reference_tags;
   problem.pose_error = known.pose_error;
+  if (!is_exact(known.pose_error)) warn_of_pose_jumps(problem.tracks, diagnostics);
   problem.map_error = map_error_of(known, problem.tracks);
   problem.drift = drift_of(known, problem.tracks);
   problem.limits = known.limits;
