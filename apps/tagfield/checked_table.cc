@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/experiment/odometry_csv.h"
 #include "tagfield/files/csv.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/tag_heights_csv.h"
@@ -38,6 +39,10 @@ Json describe_poses(const std::string& path) {
       poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   json["duration_s"] = poses.empty() ? 0.0 : to_seconds(last->stamp - first->stamp);
   return json;
+}
+
+Json describe_odometry(const std::string& path) {
+  return {{"antennas", read_odometry_csv(path).size()}};
 }
 
 Json describe_heights(const std::string& path) {
@@ -109,6 +114,7 @@ const std::vector<TableKind>& table_kinds() {
   static const std::vector<TableKind> kKinds = {
       {kTableOfReads, {"stamp_s", "antenna", "tag", "frequency_hz", "rssi_dbm"}, nullptr},
       {"antenna poses", {"stamp_s", "antenna", "x_m", "qw"}, describe_poses},
+      {"wheel odometry of antennas", {"antenna", "x_m", "qw", "alpha1"}, describe_odometry},
       {"tracks of tags", {"stamp_s", "tag", "track", "x_m", "vx_m_s"}, describe_numbers},
       {"order of tags", {"passed", "rank", "tag", "stamp_s"}, describe_numbers},
       {"verdicts on tracks", {"tag", "verdict", "tracks", "coherence"}, describe_numbers},

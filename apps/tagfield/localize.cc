@@ -36,6 +36,7 @@
 #include "tagfield/report/estimates_csv.h"
 #include "tagfield/report/method_summary.h"
 #include "tagfield/report/page.h"
+#include "tagfield/report/summary.h"
 #include "tagfield/scenario/calibration_profile.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
@@ -199,9 +200,9 @@ void stage_unreported(const UnreportedReads& unreported, const Truth& truth, Sta
   });
 }
 
-void stage(const LoadedRecording& recording, const std::optional<ScenarioWithWorld>& loaded,
-           const LocalizationOptions& options, const LocalizationResult& result,
-           StagedFolder& folder) {
+void stage(const LocalizeArguments& arguments, const LoadedRecording& recording,
+           const std::optional<ScenarioWithWorld>& loaded, const LocalizationOptions& options,
+           const LocalizationResult& result, StagedFolder& folder) {
   if (!recording.table.empty()) {
     folder.add_copy("reads.csv", recording.table);
   } else if (!recording.unreported) {
@@ -226,6 +227,9 @@ void stage(const LoadedRecording& recording, const std::optional<ScenarioWithWor
   } else if (!is_empty(recording.truth)) {
     stage_truth(recording.truth, folder);
   }
+  if (!arguments.tables.odometry.empty()) {
+    folder.add("odometry.csv", odometry_to_csv(arguments.tables.odometry));
+  }
   if (!options.known.heights.of_tag.empty()) {
     folder.add("tag_heights.csv", tag_heights_to_csv(options.known.heights.of_tag));
   }
@@ -241,7 +245,7 @@ bool is_of_this_run(const LocalizeArguments& arguments, const std::string& out) 
 
 /// Keeps the run's files that can't be recreated without a scenario and are not staged already.
 void keep_of_this_run(const std::string& out, StagedFolder& folder) {
-  for (const char* name : {"top_view.json", "tag_heights.csv"}) {
+  for (const char* name : {"top_view.json", "tag_heights.csv", "odometry.csv"}) {
     const fs::path file = fs::path(out) / name;
     if (is_there(file) && !is_there(folder.staging() / name)) {
       folder.add(name, read_text_file(file.string()));
@@ -252,11 +256,15 @@ void keep_of_this_run(const std::string& out, StagedFolder& folder) {
 /// A run's folder states what its localization knew, which is used unless the command line or a
 /// scenario says otherwise.
 LocalizeArguments with_what_run_knew(LocalizeArguments arguments) {
-  if (!is_run(arguments.recording) || !arguments.scenario.empty()) return arguments;
+  if (!is_run(arguments.recording)) return arguments;
   const auto file_of_run = [&](const char* name) {
     const fs::path file = fs::path(arguments.recording) / name;
     return is_there(file) ? file.string() : std::string();
   };
+  if (arguments.odometry_file.empty() && !arguments.pose_sigma_m) {
+    arguments.odometry_file = file_of_run("odometry.csv");
+  }
+  if (!arguments.scenario.empty()) return arguments;
   const bool states_heights = arguments.tag_height_m || !arguments.heights_file.empty() ||
                               !arguments.height_side.empty() || !arguments.old_height_side.empty();
   if (!states_heights) arguments.heights_file = file_of_run("tag_heights.csv");
@@ -266,11 +274,25 @@ LocalizeArguments with_what_run_knew(LocalizeArguments arguments) {
   return arguments;
 }
 
+/// Whether the recording is of a run whose poses are wheel odometry.
+bool is_by_wheels(const LoadedRecording& recording, const std::string& path) {
+  if (recording.poses.name == "odometry") return true;
+  const fs::path summary = fs::path(path) / "summary.json";
+  if (!is_run(path) || !is_file(summary)) return false;
+  try {
+    const std::string text = read_text_file(summary.string());
+    return summary_from_json(text, summary.string()).pose == "odometry";
+  } catch (const Error&) {
+    return false;  // Nothing else of the summary is used.
+  }
+}
+
 /// "known: runs/a/tag_heights.csv, and the truth to judge by": what was taken from a run's folder.
 std::string line_of_run(const LocalizeArguments& arguments, bool has_truth) {
   if (!is_run(arguments.recording)) return "";
   std::vector<std::string> used;
-  for (const std::string& file : {arguments.heights_file, arguments.references_file}) {
+  for (const std::string& file :
+       {arguments.heights_file, arguments.references_file, arguments.odometry_file}) {
     if (!file.empty()) used.push_back(file);
   }
   std::string line =
@@ -351,7 +373,7 @@ bool tell_orientation(const std::vector<AntennaPose>& poses) {
 
 void warn_of_what_is_missing(const LocalizeArguments& arguments, const LoadedRecording& recording,
                              const KnownBeforehand& known, Diagnostics& diagnostics) {
-  if (recording.poses.name == "odometry" && !known.drift && !known.pose_error) {
+  if (!known.drift && !known.pose_error && is_by_wheels(recording, arguments.recording)) {
     diagnostics.warn(
         "the poses are wheel odometry: what they are off by as a whole, since the start, is not in "
         "the expected errors");
@@ -426,7 +448,7 @@ int localize(const LocalizeArguments& asked) {
   catch_interrupts();  // The rest takes only a moment, unless reads don't fit in memory, and no
                        // incomplete files remain.
   StagedFolder folder(out);
-  stage(recording, loaded, options, result, folder);
+  stage(arguments, recording, loaded, options, result, folder);
   const bool in_parts = recording.stored.has_value();
   if (in_parts && interrupted()) return kExitInterrupted;
   folder.add("summary.json", to_json(summary));
@@ -438,7 +460,8 @@ int localize(const LocalizeArguments& asked) {
   stage_report(staging, http::view_of(staging), folder);
   if (in_parts && interrupted()) return kExitInterrupted;
   folder.commit({"report.html", "figures", "compared_poses.csv", "corrected_poses.csv",
-                 "reference_tags.csv", "truth", "top_view.json", "tag_heights.csv"});
+                 "reference_tags.csv", "truth", "top_view.json", "tag_heights.csv",
+                 "odometry.csv"});
   if (arguments.as_json) {
     fmt::print("{}", to_json(summary));
   } else {
@@ -457,8 +480,9 @@ void add_localize_command(CLI::App& app, Action& chosen) {
   command
       ->add_option("READS", arguments->recording,
                    "Rosbag of ROS 1 (RUN.bag), recording of ROS 2 (RUN.mcap, RUN.db3, or "
-                   "rosbag2's folder), the folder of a run, whose tag_heights.csv and "
-                   "reference_tags.csv are known beforehand unless options say otherwise, or CSV: "
+                   "rosbag2's folder), the folder of a run, whose tag_heights.csv, "
+                   "reference_tags.csv and odometry.csv are known beforehand unless options say "
+                   "otherwise, or CSV: "
                    "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,"
                    "rssi_dbm; of CSV also an archive, RUN.tar.zst or RUN.csv.gz")
       ->required();

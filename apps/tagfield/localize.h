@@ -12,15 +12,17 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/ros_options.h"
+#include "tagfield/experiment/odometry_csv.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/sdf/load_world.h"
 
 namespace tagfield {
 
-/// Contents of the files of --tag-heights and --reference.
+/// Contents of the files of --tag-heights, --reference and --odometry.
 struct KnownTables {
   std::map<std::string, double> heights;              ///< [m]
   std::map<std::string, Eigen::Vector3d> references;  ///< [m, world]
+  OdometryByAntenna odometry;
 };
 
 struct LocalizeArguments {
@@ -38,6 +40,7 @@ struct LocalizeArguments {
   std::string side;                  ///< Side of the path that tags are on, or "".
   std::vector<double> box;           ///< X0 Y0 X1 Y1 that contains the tags, or empty.
   std::string references_file;       ///< CSV, or "".
+  std::string odometry_file;         ///< CSV of antennas on wheel odometry, or "".
   std::vector<std::string> offsets;  ///< "RAD" or "ANTENNA=RAD".
   std::optional<double> pose_sigma_m;
   std::optional<double> pose_yaw_sigma_deg;

@@ -15,6 +15,7 @@
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/experiment/known_beforehand.h"
+#include "tagfield/experiment/odometry_drift.h"
 #include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/files/tag_positions_csv.h"
 
@@ -107,6 +108,9 @@ KnownTables known_tables(const LocalizeArguments& arguments) {
   if (!arguments.references_file.empty()) {
     tables.references = read_tag_positions_csv(arguments.references_file);
   }
+  if (!arguments.odometry_file.empty()) {
+    tables.odometry = read_odometry_csv(arguments.odometry_file);
+  }
   return tables;
 }
 
@@ -172,6 +176,12 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
                       "Error of the poses, standard deviation in x and y [m]; 0 for exact "
                       "(default: the covariances in the table of poses, or unknown)")
           ->check(CLI::Range(0.0, kMaxLength_m));
+  command
+      .add_option("--odometry", arguments.odometry_file,
+                  "The poses are wheel odometry: where its antennas are on their robots, and its "
+                  "errors, as odometry.csv of a run (docs/files.md); its drift is then in the "
+                  "expected errors")
+      ->excludes(sigma);
   command.add_option("--pose-yaw-sigma", arguments.pose_yaw_sigma_deg, "Likewise in yaw [deg]")
       ->check(fault_of_non_negative)
       ->needs(sigma);
@@ -210,6 +220,7 @@ void take_known(const LocalizeArguments& arguments, const ReadOverview& reads,
     known.reference_tags = arguments.tables.references;
   }
   if (!arguments.offsets.empty()) known.offsets = offsets_of(arguments.offsets, reads);
+  if (!arguments.odometry_file.empty()) known.drift = drift_by(arguments.tables.odometry);
   if (arguments.circular.empty()) return;
   const Hand hand = arguments.circular == "right" ? Hand::kRight : Hand::kLeft;
   for (const auto& [antenna, last] : reads.last_by_antenna) known.circular[antenna] = hand;
@@ -246,6 +257,7 @@ std::optional<PoseErrorModel> pose_error_of(const LocalizeArguments& arguments,
     return model;
   }
   if (scenario == nullptr) return std::nullopt;
+  if (!arguments.odometry_file.empty()) return scenario->localization.pose_error;
   if (poses == "given") return known_beforehand(*scenario).pose_error;
   return scenario->localization.pose_error;
 }

@@ -12,6 +12,7 @@
 #include "adapters/ros2/tee_sink.h"
 #include "apps/tagfield/speed_option.h"
 #include "tagfield/base/error.h"
+#include "tagfield/scenario/driven_robot.h"
 
 namespace tagfield {
 namespace {
@@ -85,8 +86,8 @@ void add_outlet_options(CLI::App& command, OutletArguments& arguments) {
   add_speed_option(command, arguments.speed, "as the scenario says; with --ros2 1");
 }
 
-void apply(const OutletArguments& arguments, Scenario& scenario) {
-  if (!arguments.drive.empty()) scenario.pose.source = PoseSource::kOdometry;
+void apply(const OutletArguments& arguments, Scenario& scenario, Diagnostics& diagnostics) {
+  if (!arguments.drive.empty()) let_be_driven(arguments.drive, scenario, diagnostics);
   if (arguments.speed) {
     scenario.real_time = *arguments.speed;
   } else if (arguments.ros2 && !(scenario.real_time > 0.0)) {

@@ -32,9 +32,9 @@ struct RunOutlets {
 void add_outlet_options(CLI::App& command, OutletArguments& arguments);
 
 /// Sets the speed of a run: that of the command line, or else, with ROS 2, real time unless the
-/// scenario states one. If a robot is driven externally, poses are by odometry, whatever the
-/// scenario states: nothing else in here estimates them.
-void apply(const OutletArguments& arguments, Scenario& scenario);
+/// scenario states one. If a robot is driven externally, its poses are by odometry, whatever the
+/// scenario states: nothing else in here estimates them (let_be_driven()).
+void apply(const OutletArguments& arguments, Scenario& scenario, Diagnostics& diagnostics);
 
 /// Attaches the requested outlets, and waits a moment for existing subscribers. Throws Error if the
 /// domain can't be joined, or the robot to be driven does not exist.

@@ -24,6 +24,7 @@
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/experiment/leave_one_out.h"
+#include "tagfield/experiment/odometry_drift.h"
 #include "tagfield/experiment/stoppable.h"
 #include "tagfield/experiment/store/run_store.h"
 #include "tagfield/experiment/store/work_hash.h"
@@ -91,6 +92,8 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
   if (!known.reference_tags.empty()) {
     folder.add("reference_tags.csv", tag_positions_to_csv(known.reference_tags));
   }
+  const OdometryByAntenna odometry = odometry_of(loaded.scenario);
+  if (!odometry.empty()) folder.add("odometry.csv", odometry_to_csv(odometry));
   if (run.navigation) stage_navigation(*run.navigation, folder);
   stage_top_view(loaded, folder);
   folder.add("scene.json", http::scene_json(loaded));
@@ -246,9 +249,9 @@ void print_result(const Summary& summary, const std::string& tracks, const std::
 std::vector<std::filesystem::path> stale_files() {
   std::vector<std::filesystem::path> all = track_file_names();
   for (const char* name :
-       {"tag_heights.csv", "reference_tags.csv", "corrected_poses.csv", "top_view.json", "map.pgm",
-        "map.yaml", "mapping_path.csv", "truth/mapping_path.csv", "report.html", "figures",
-        "scene.json", "INCOMPLETE"}) {
+       {"tag_heights.csv", "reference_tags.csv", "odometry.csv", "corrected_poses.csv",
+        "top_view.json", "map.pgm", "map.yaml", "mapping_path.csv", "truth/mapping_path.csv",
+        "report.html", "figures", "scene.json", "INCOMPLETE"}) {
     all.emplace_back(name);
   }
   return all;
@@ -283,7 +286,7 @@ int run(const RunArguments& arguments) {
   ScenarioWithWorld loaded =
       load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);
   take_antennas_away(arguments.without, loaded.scenario);
-  apply(arguments.outlets, loaded.scenario);
+  apply(arguments.outlets, loaded.scenario, diagnostics);
   const Scenario& scenario = loaded.scenario;
   // Other warnings are printed with the result.
   Diagnostics beforehand;

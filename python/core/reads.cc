@@ -21,6 +21,7 @@
 #include "tagfield/experiment/tracking_run.h"
 #include "tagfield/files/read_overview.h"
 #include "tagfield/scenario/calibration_profile.h"
+#include "tagfield/scenario/driven_robot.h"
 
 namespace tagfield::python {
 namespace {
@@ -162,10 +163,22 @@ void take_pose_error(const Asked& asked, KnownBeforehand& known) {
 }
 
 /// Of a scenario, where there is one, with what is asked instead.
+/// The scenario with the robot that was driven, if one is named.
+Scenario as_driven(const Asked& asked, Scenario scenario) {
+  const std::string robot = asked.get<std::string>("driven_robot").value_or("");
+  if (robot.empty()) return scenario;
+  const bool is_known = std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                                    [&](const RobotSpec& spec) { return spec.name == robot; });
+  if (!is_known) asked.refuse("driven_robot", "the name of a robot of the scenario");
+  Diagnostics unheard;  // The simulation has told.
+  let_be_driven(robot, scenario, unheard);
+  return scenario;
+}
+
 KnownBeforehand known_of(const Asked& asked, const LoadedPtr& loaded,
                          const std::vector<TagRead>& reads) {
   KnownBeforehand known;
-  if (loaded) known = known_beforehand(loaded->parts.scenario);
+  if (loaded) known = known_beforehand(as_driven(asked, loaded->parts.scenario));
   take_heights(asked, known);
   take_offsets(asked, reads, known);
   take_area(asked, known);

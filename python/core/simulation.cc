@@ -11,6 +11,7 @@
 #include "python/core/loaded.h"
 #include "python/core/tables.h"
 #include "tagfield/motion/planar_pose.h"
+#include "tagfield/scenario/driven_robot.h"
 #include "tagfield/simulator/remote_driver.h"
 #include "tagfield/simulator/robot.h"
 
@@ -70,7 +71,7 @@ class Stepping {
                   driver_,
                   {std::make_shared<const RayScene>(loaded_->parts.scene), scenario_.obstacles}};
       driving = &driving_;
-      scenario_.pose.source = PoseSource::kOdometry;
+      let_be_driven(robot, scenario_, diagnostics_);
     }
     simulation_.emplace(scenario_, seed, attached, nullptr, driving);
   }
@@ -95,6 +96,9 @@ class Stepping {
     tables_.robots = taken.robots;
     return to_python(std::move(taken));
   }
+
+  /// What does not hold as the scenario states it.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return diagnostics_.warnings(); }
 
   PythonDriver& driver() {
     if (driver_) return *driver_;
@@ -135,6 +139,7 @@ class Stepping {
 
   LoadedPtr loaded_;
   Scenario scenario_;
+  Diagnostics diagnostics_;
   RunTables tables_;
   std::shared_ptr<PythonDriver> driver_;
   RemoteDriving driving_;
@@ -169,6 +174,7 @@ void bind_simulation(py::module_& module) {
                                return Eigen::Vector3d(pose.x, pose.y, pose.yaw);
                              })
       .def_property_readonly("scan", &scan_of)
+      .def_property_readonly("warnings", &Stepping::warnings)
       .def("robot_pose", &Stepping::robot_pose, py::arg("name"), py::arg("believed"))
       .def_property_readonly("now_s",
                              [](Stepping& self) { return to_seconds(self.simulation().now()); })

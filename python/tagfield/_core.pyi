@@ -112,6 +112,7 @@ class Simulation:
     progress: float
     odometry: NDArray[np.float64]
     scan: tuple[float, float, float, float, NDArray[np.float32]] | None
+    warnings: list[str]
     def __init__(self, loaded: Loaded, seed: int, outlets: list[Any], robot: str,
                  policy: Callable[[float], tuple[float, float]] | None) -> None: ...
     def step(self, count: int) -> None: ...

@@ -124,6 +124,8 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
         the pose error; the last two need pose_sigma_m.
     world_sigma_m: standard deviation of the position of the scenario world's surfaces [m], for method
         "multipath" (default 0.01; 0 for reads that were simulated in the same world).
+    driven_robot: name of the scenario's robot that was driven (:meth:`Scenario.simulation`), as its poses are
+        wheel odometry, whose drift is then in the expected errors. Tables of a simulation's poses know it.
     max_expected_error_m: a tag with a larger expected error is not located.
     pi_ambiguity: whether phases have the π ambiguity.
     """
@@ -136,12 +138,16 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
     pairs = [(key, value if isinstance(value, str) else _plain_text(value))
              for key, value in mapping("localize: settings", settings, "setting to value").items()]
     of_reads = _reads_table(reads)
+    driven = getattr(poses, "driven_robot", "")
+    if driven and loaded is not None:
+        known.setdefault("driven_robot", driven)
     listed = _listed("localize", known)
     located = called("localize", _core.localize, _reads_argument(of_reads), _poses_argument(poses),
                      _truth_argument(truth), name, own, pairs, loaded, listed, threads_of(threads))
     unread = [warning for keyword in ("reference_tags", "tag_heights_m")
               for warning in _unread(keyword, listed.get(keyword) or {}, of_reads)]
-    return Localization({**located, "warnings": [*unread, *located["warnings"]]})
+    drifts = [_DRIFTS] if driven and loaded is None and "pose_sigma_m" not in known else []
+    return Localization({**located, "warnings": [*unread, *drifts, *located["warnings"]]})
 
 
 def track(reads: Any, poses: Any, *, scenario: Scenario | None = None, threads: int | None = None,
@@ -208,7 +214,9 @@ def calibrate(reads: Any, poses: Any, tags: Mapping[str, Any], *, phase_centre_s
 
 _LATEST_NS = 2**63 - 1
 _HEIGHTS = {"tag_height_m", "tag_heights_m", "vertical_side", "offset_rad", "offsets_rad"}
-_KNOWN = _HEIGHTS | {"side", "box_m", "reference_tags", "pose_sigma_m", "pose_yaw_sigma_deg",
+_DRIFTS = ("the poses are wheel odometry of a driven robot: what they are off by as a whole, since the start, is not in the "
+           "expected errors (scenario=, the one that was driven, adds it)")
+_KNOWN = _HEIGHTS | {"driven_robot", "side", "box_m", "reference_tags", "pose_sigma_m", "pose_yaw_sigma_deg",
                      "pose_time_constant_s", "world_sigma_m", "max_expected_error_m", "pi_ambiguity"}
 _TRACK = _HEIGHTS - {"vertical_side"} | {"method", "lane", "bidirectional", "line", "speed_m_s", "acceleration_noise"}
 

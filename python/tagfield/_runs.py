@@ -173,6 +173,7 @@ class Simulation:
         self._has_policy = policy is not None
         self._core = _core.Simulation(scenario._loaded, seed, outlets, robot,
                                       None if policy is None else _checked(policy))
+        tell(self._core.warnings)
         self._taken: dict[str, Table] = self._core.take()
 
     def step(self, count: int = 1) -> Table:
@@ -204,8 +205,13 @@ class Simulation:
 
     @property
     def poses(self) -> Table:
-        """Believed poses of the antennas during the last step() or run_until(), as in Run.poses."""
-        return self._taken["poses"]
+        """Believed poses of the antennas during the last step() or run_until(), as in Run.poses.
+
+        Those on a driven robot are its wheel odometry, which :func:`localize` knows by their ``driven_robot``.
+        """
+        poses = self._taken["poses"]
+        poses.driven_robot = self.robot
+        return poses
 
     @property
     def truth(self) -> Truth:

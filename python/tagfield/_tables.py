@@ -30,17 +30,23 @@ class Table(np.ndarray):
     ``names(column)`` spells it out, and ``where(tag="tag3")`` selects by name.
 
     Units are in the columns' names. ``stamp_ns`` is exact; ``time_s`` is the same in seconds.
+
+    ``driven_robot`` of believed poses names the robot that was driven while they were recorded, if any, as its
+    poses are wheel odometry; :func:`localize` heeds it.
     """
 
     categories: dict[str, tuple[str, ...]]
+    driven_robot: str
 
     def __new__(cls, array, categories=None):
         table = np.asarray(array).view(cls)
         table.categories = dict(categories or {})
+        table.driven_robot = getattr(array, "driven_robot", "")
         return table
 
     def __array_finalize__(self, parent):
         self.categories = getattr(parent, "categories", {})
+        self.driven_robot = getattr(parent, "driven_robot", "")
 
     def __array_function__(self, function, types, arguments, keywords):
         # NumPy would number the names of all tables as those of the first one are, or lose them.
@@ -52,11 +58,12 @@ class Table(np.ndarray):
 
     def __reduce__(self):
         function, arguments, state = super().__reduce__()
-        return function, arguments, (state, self.categories)
+        return function, arguments, (state, self.categories, self.driven_robot)
 
     def __setstate__(self, state):
         super().__setstate__(state[0])
         self.categories = state[1]
+        self.driven_robot = state[2] if len(state) > 2 else ""
 
     def __getitem__(self, index):
         item = super().__getitem__(index)
@@ -168,7 +175,9 @@ def stack(tables: Iterable[Table]) -> Table:
             np.array([*(numbers[name] for name in table.categories[column]), -1])[np.asarray(table[column]).reshape(-1)]
             for table in given])
         categories[column] = known
-    return Table(stacked, categories)
+    joined = Table(stacked, categories)
+    joined.driven_robot = next((table.driven_robot for table in given if table.driven_robot), "")
+    return joined
 
 
 def _split(column: str, values: np.ndarray) -> dict[str, np.ndarray]:

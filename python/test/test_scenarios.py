@@ -414,6 +414,49 @@ def test_robot_is_driven():
         sim.drive(math.inf, 0)
 
 
+def test_drift_of_a_driven_robot_is_in_the_expected_errors():
+    noise = {"alpha1": 0.01, "alpha2": 0.005, "alpha3": 0.01, "alpha4": 0.001}
+    heights = {tag: 1.5 for tag in ("tag1", "tag2")}
+
+    def driven(scenario):
+        sim = scenario.simulation(seed=3, robot="p3at", policy=lambda time_s: (0.3, 0.12 * math.sin(0.2 * time_s)))
+        reads, poses = [], []
+        while sim.now_s < 20:
+            reads.append(sim.step(100))
+            poses.append(sim.poses)
+        return tagfield.stack(reads), tagfield.stack(poses)
+
+    stated = warehouse().with_({"navigation": {"mode": "truth", "odometry": noise}})
+    reads, poses = driven(stated)
+    assert poses.driven_robot == poses[5:].driven_robot == "p3at" and reads.driven_robot == ""
+    by_wheels = tagfield.localize(reads, poses, "joint", scenario=stated)
+    # The same, stated by name, as for poses out of a file.
+    plain = tagfield.Table(np.array(poses), poses.categories)
+    by_name = tagfield.localize(reads, plain, "joint", scenario=stated, driven_robot="p3at")
+    np.testing.assert_array_equal(by_wheels.estimates["expected_error_m"], by_name.estimates["expected_error_m"])
+    # As exact poses they would leave ten times less.
+    exact = tagfield.localize(reads, plain, "joint", scenario=stated)
+    both = np.isfinite(by_wheels.estimates["expected_error_m"]) & np.isfinite(exact.estimates["expected_error_m"])
+    assert both.any()
+    assert (by_wheels.estimates["expected_error_m"] > 2 * exact.estimates["expected_error_m"])[both].all()
+    with pytest.warns(tagfield.TagfieldWarning, match="wheel odometry of a driven robot"):
+        tagfield.localize(reads, poses, "joint", tag_heights_m=heights)
+    with pytest.raises(tagfield.Error, match="driven_robot"):
+        tagfield.localize(reads, poses, scenario=stated, driven_robot="nobody")
+
+
+def test_other_robots_keep_their_pose_source():
+    scenario = warehouse().with_({"robots": [{"name": "p3at", "start": [-1.4, -1.5, -1.5708]},
+                                             {"name": "other", "start": [0, 0, 0], "waypoints": [[1, 0], [1, 1]]}],
+                                  "duration_s": 20})
+    sim = scenario.simulation(seed=2, robot="p3at", policy=lambda time_s: (0.3, 0.1))
+    sim.run_until(6)
+    np.testing.assert_array_equal(sim.robot_pose("other", believed=True), sim.robot_pose("other"))
+    assert np.abs(sim.robot_pose(believed=True) - sim.robot_pose()).max() > 1e-4
+    with pytest.warns(tagfield.TagfieldWarning, match="pose.source: noisy has no effect on 'p3at'"):
+        scenario.with_({"pose.source": "noisy"}).simulation(robot="p3at")
+
+
 def test_policy_drives():
     asked = []
 

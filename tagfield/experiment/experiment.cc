@@ -191,7 +191,7 @@ void locate_run(const Scenario& scenario, const RunControl& control, SeedRun& ru
   run.corrected_poses = std::move(result.corrected_poses);
   run.outcomes = outcomes_of(run, options, run.estimates);
   run.compared = compared(scenario, run, options);
-  if (scenario.pose.source == PoseSource::kTrue) return;
+  if (pose_source_of(scenario) == PoseSource::kTrue) return;
   LocalizationOptions exact = options;
   exact.known.pose_error = PoseErrorModel{};
   exact.known.map_error.reset();
@@ -236,9 +236,17 @@ LocalizationOptions localization_options(const Scenario& scenario, int threads) 
 }
 
 std::optional<MapError> map_error_of(const Scenario& scenario, const SeedRun& run) {
-  if (!run.navigation || !run.navigation->survey) return std::nullopt;
-  return MapError{position_of(mapping_robot(scenario).start),
-                  run.navigation->survey->start_covariance};
+  if (!run.navigation) return std::nullopt;
+  MapError error;
+  error.origin_W = position_of(mapping_robot(scenario).start);
+  if (run.navigation->survey) {
+    error.covariance = run.navigation->survey->start_covariance;
+    return error;
+  }
+  const double of_cells_m = run.navigation->map.resolution_m / std::sqrt(12.0);
+  const double sigma_m = navigation_of(scenario).map_sigma_m.value_or(of_cells_m);
+  error.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, 0.0;
+  return error;
 }
 
 SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
@@ -335,7 +343,7 @@ Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, do
   summary.method = methods_of(runs);
   summary.method_asked = scenario.localization.method;
   summary.method_why = first.method_why;
-  summary.pose = to_string(scenario.pose.source);
+  summary.pose = to_string(pose_source_of(scenario));
   summary.path_length_m = first.path_length_m;
   summary.reads = first.recording.reads.size();
   summary.simulated_s = first.simulated_s;
@@ -347,7 +355,7 @@ Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, do
     simulated_s += run.simulated_s + mapping_s(run);
     summary.tags.insert(summary.tags.end(), run.outcomes.begin(), run.outcomes.end());
   }
-  const bool believed = scenario.pose.source != PoseSource::kTrue;
+  const bool believed = pose_source_of(scenario) != PoseSource::kTrue;
   summary.compared_methods = compared_methods(summary.method, believed, runs, summary.tags);
   summary.real_time_factor = wall_s > 0.0 ? simulated_s / wall_s : 0.0;
   summary.inventory = mean_inventory(runs);

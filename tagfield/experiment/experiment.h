@@ -51,7 +51,8 @@ struct SeedRun {
 SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                  const NavigationWorld* world = nullptr);
 
-/// The error of the map made by the run's robot; none if the map was given or not needed.
+/// The error of the map as a whole: that of the mapping by the run's robot, or of a given map
+/// (NavigationSpec::map_sigma_m); none without a map.
 std::optional<MapError> map_error_of(const Scenario& scenario, const SeedRun& run);
 
 /// Locates the tags from the run's reads and believed poses, unless localization is impossible or

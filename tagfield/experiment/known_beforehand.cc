@@ -56,6 +56,7 @@ std::vector<KnownOffset> offsets_of(const Scenario& scenario) {
 std::optional<PoseErrorModel> pose_error_of(const Scenario& scenario) {
   const PoseBelief& pose = scenario.pose;
   if (scenario.localization.pose_error) return scenario.localization.pose_error;
+  if (!odometry_of(scenario).empty()) return std::nullopt;
   const bool any_on_a_robot =
       std::any_of(scenario.antennas.begin(), scenario.antennas.end(),
                   [](const AntennaSpec& antenna) { return !antenna.on.empty(); });

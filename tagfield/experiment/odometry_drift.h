@@ -3,6 +3,7 @@
 /// Drift of the believed poses of robots that rely on their wheels alone.
 #pragma once
 
+#include "tagfield/experiment/odometry_csv.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/motion/odometry_noise.h"
 #include "tagfield/scenario/scenario.h"
@@ -16,8 +17,15 @@ namespace tagfield {
 /// which overstates the variance by at most |turn| d/2 relative to the distance.
 OdometryNoise noise_of_wheels(double wheel_noise, const DriveGeometry& drive);
 
-/// The drift since the robots' start of antennas on robots, if `pose.source` is `odometry`; null
-/// otherwise.
+/// The antennas on robots that believe their wheels: with `pose.source: odometry` those on all
+/// robots, else those on the robot that is driven from outside, if any. The errors are those in
+/// force: of `pose.wheel_noise`, or of `navigation.odometry` for the driven robot.
+OdometryByAntenna odometry_of(const Scenario& scenario);
+
+/// The drift of these antennas since their robots' start; null if there are none.
+DriftOf drift_by(OdometryByAntenna odometry);
+
+/// Same, of odometry_of() the scenario.
 DriftOf odometry_drift(const Scenario& scenario);
 
 }  // namespace tagfield

@@ -3,6 +3,7 @@
 /// How a robot navigates by itself, as a plain struct.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "tagfield/laser/simulated_laser.h"
@@ -24,6 +25,9 @@ enum class StartBelief {
 struct NavigationSpec {
   StartBelief start = StartBelief::kKnown;
   std::string map;  ///< YAML file of the map to navigate with; "" to make a map first.
+  /// Error of a given map as a whole, standard deviation of its shift in x and y [m]; nullopt for
+  /// that of its cells, cell/√12, as a wall may be anywhere in its cell.
+  std::optional<double> map_sigma_m;
   /// Whether obstacles too low for the laser to see, but not too low to collide with, are known to
   /// the driver from the world file, as from a floor plan.
   bool keep_out = true;

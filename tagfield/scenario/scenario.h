@@ -165,6 +165,9 @@ struct Scenario {
   double real_time = 0.0;            ///< Multiple of real time to run at; 0 for as fast as it can.
   std::vector<RobotSpec> robots;
   PoseBelief pose;
+  /// Robot that is driven from outside, if any, and therefore believes its wheel odometry, with the
+  /// errors of navigation.odometry, whatever `pose` says of the others; not in the scenario file.
+  std::string driven_robot;
   /// For PoseSource::kSlam, as in the scenario file; null for the defaults.
   std::shared_ptr<const NavigationSpec> navigation;
   std::vector<ObstacleSpec> obstacles;
@@ -174,6 +177,17 @@ struct Scenario {
   LocalizationSpec localization;
   TrackingSpec tracking;
 };
+
+/// Source of the believed poses of one robot.
+inline PoseSource pose_source_of(const Scenario& scenario, const std::string& robot) {
+  const bool is_driven = !robot.empty() && robot == scenario.driven_robot;
+  return is_driven ? PoseSource::kOdometry : scenario.pose.source;
+}
+
+/// Source of the run's believed poses as a whole: odometry if a robot is driven from outside.
+inline PoseSource pose_source_of(const Scenario& scenario) {
+  return scenario.driven_robot.empty() ? scenario.pose.source : PoseSource::kOdometry;
+}
 
 /// IDs of all tags, in the scenario's order.
 inline std::vector<std::string> tags_of(const Scenario& scenario) {

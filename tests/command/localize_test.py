@@ -688,6 +688,52 @@ def the_folder_of_a_run_is_its_tables(context):
 
 
 @case
+def the_folder_of_a_run_by_wheels_states_their_drift(context):
+    run = context.simulate("paper_warehouse", "--set", "pose.source=odometry", "--set", "pose.wheel_noise=0.002",
+                           "--set", "localization.method=joint", "--seed", "4", "--no-page")
+    ours = {row["tag"]: row for row in read_csv(run / "estimates.csv")}
+    result = context.run_well("localize", run, "--method", "joint", "--out", "new")
+    check_in(f"{run}/odometry.csv", result.out, "what was used")
+    check_equal(result.err, "", "stderr")
+    check_equal(read_csv(context.folder / "new/odometry.csv"), read_csv(run / "odometry.csv"), "odometry.csv")
+    # The tables round phases to six decimals.
+    for row in read_csv(context.folder / "new/estimates.csv"):
+        for column in ("x_m", "y_m", "expected_error_m"):
+            check_near(float(row[column]), float(ours[row["tag"]][column]), 1e-4, f"{row['tag']} {column}")
+    # So they do beside a scenario that says otherwise, and with the table alone.
+    context.run_well("localize", run, "--method", "joint", "--scenario", context.shipped("paper_warehouse"), "--out", "beside")
+    tables = ["localize", run / "reads.csv", "--poses", run / "antenna_poses.csv", "--tag-heights",
+              run / "tag_heights.csv", "--method", "joint"]
+    context.run_well(*tables, "--odometry", run / "odometry.csv", "--out", "tables")
+    for name in ("beside", "tables"):
+        for row in read_csv(context.folder / name / "estimates.csv"):
+            check_near(float(row["expected_error_m"]), float(ours[row["tag"]]["expected_error_m"]), 1e-4, f"{name} {row['tag']}")
+    # A folder that states no more than that it was odometry is warned of.
+    (run / "odometry.csv").unlink()
+    result = context.run_well("localize", run, "--method", "joint", "--out", "old")
+    check_in("the poses are wheel odometry", result.err, "without odometry.csv")
+
+
+@case
+def jumps_of_the_poses_are_warned_of(context):
+    run = context.simulate("paper_warehouse", "--no-page")
+    rows = read_csv(run / "antenna_poses.csv")
+    lines = [",".join(rows[0])]
+    for row in rows:
+        if float(row["stamp_s"]) > 20:
+            row["x_m"] = str(float(row["x_m"]) + 0.3)
+        lines.append(",".join(row.values()))
+    poses = context.write("jumped.csv", "\n".join(lines) + "\n")
+    for command in (["localize", "--tag-height", "1.5", "--out", "moved"], ["check"]):
+        arguments = [command[0], run / "reads.csv", "--poses", poses, *command[1:]]
+        result = context.run_well(*arguments)
+        check_in("the poses of antenna 'mobile' jump by 0.30 m, from 20.0", result.out + result.err, command[0])
+        check("good" not in result.out, f"{command[0]} says {result.out!r}")
+        smooth = context.run_well(*arguments[:3], run / "antenna_poses.csv", *command[1:])
+        check("jump by" not in smooth.out + smooth.err, f"{command[0]} of the poses as they are: {smooth.err!r}")
+
+
+@case
 def the_folder_of_a_run_states_heights_and_truth(context):
     run = context.folder / "run"
     context.run_well("run", context.shipped("paper_warehouse"), "--no-page", "--out", run)

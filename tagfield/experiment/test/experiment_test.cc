@@ -7,6 +7,7 @@
 
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/files/reads_csv.h"
+#include "tagfield/scenario/navigation_spec.h"
 
 namespace tagfield {
 namespace {
@@ -190,6 +191,24 @@ TEST(RunSeeds, KeepsItsEstimatesWhenStoppedWhileOthersAreCompared) {
   ASSERT_EQ(run.outcomes.size(), 3U);
   EXPECT_LT(*error_of(run.outcomes[0]), 0.05);
   EXPECT_TRUE(run.compared.empty());
+}
+
+// A wall that is anywhere in its cell is uniformly distributed over it.
+TEST(MapError, OfAGivenMapIsThatOfItsCellsUnlessStated) {
+  Scenario scenario;
+  RobotSpec robot;
+  robot.start = {1.0, 2.0, 0.5};
+  robot.waypoints = {{3.0, 2.0}};
+  scenario.robots = {robot};
+  SeedRun run;
+  EXPECT_FALSE(map_error_of(scenario, run));
+  run.navigation.emplace();
+  run.navigation->map.resolution_m = 0.12;
+  const auto of_cells = map_error_of(scenario, run);
+  EXPECT_EQ(*of_cells->origin_W, Eigen::Vector2d(1.0, 2.0));
+  EXPECT_TRUE(of_cells->covariance.diagonal().isApprox(Eigen::Vector3d(1.2e-3, 1.2e-3, 0.0), 1e-9));
+  own_navigation(scenario).map_sigma_m = 0.05;
+  EXPECT_NEAR(map_error_of(scenario, run)->covariance(1, 1), 2.5e-3, 1e-12);
 }
 
 TEST(KnownHeights, AreTheRestingTags) {

@@ -4,9 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <memory>
 
+#include "tagfield/base/test/error_text.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/motion/planar_pose.h"
+#include "tagfield/scenario/navigation_spec.h"
+#include "tagfield/simulator/remote_driver.h"
 
 namespace tagfield {
 namespace {
@@ -70,6 +75,60 @@ TEST(OdometryDrift, CoversWhereRobotsTrulyEnd) {
   EXPECT_LT(sum, 3.0 + 5.0 * std::sqrt(6.0 / kRuns));
 }
 
+/// Drives on an arc.
+class Arc final : public RemoteControl {
+ public:
+  BodyVelocity wanted(Time) override { return {0.5, 0.1}; }
+  void on_odometry(const OdometryReport&) override {}
+  void on_scan(const LaserScan&) override {}
+};
+
+// The driven robot errs by navigation.odometry; 300 normalized squares, five standard deviations.
+// Another robot keeps its pose source.
+TEST(OdometryDrift, OfADrivenRobotIsThatOfItsNavigation) {
+  Scenario scenario = drive_by_wheels(0.5);
+  scenario.pose.source = PoseSource::kTrue;
+  scenario.duration_s = 15.0;
+  scenario.driven_robot = "robot";
+  own_navigation(scenario).odometry = {0.03, 0.01, 0.02, 0.004};
+  scenario.robots.push_back(scenario.robots.front());
+  scenario.robots.back().name = "other";
+  scenario.antennas.push_back(scenario.antennas.front());
+  scenario.antennas.back().parameters.name = "of_other";
+  scenario.antennas.back().on = "other";
+  const RemoteDriving remote{
+      "robot", std::make_shared<Arc>(), {std::make_shared<RayScene>(Scene{}), {}}};
+  RunControl control;
+  control.remote = &remote;
+  const DriftOf drift_of = odometry_drift(scenario);
+  constexpr int kRuns = 300;
+  double sum = 0.0;
+  for (int seed = 1; seed <= kRuns; ++seed) {
+    const SeedRun run = simulate(scenario, static_cast<std::uint64_t>(seed), control, nullptr);
+    Trajectory believed;
+    std::map<std::string, PlanarPose> ends;
+    std::map<std::string, PlanarPose> truths;
+    for (const AntennaPose& pose : run.recording.believed_poses) {
+      if (pose.antenna == "antenna") believed.push_back({pose.stamp, pose.X_WA});
+      ends[pose.antenna] = robot_at(scenario, pose);
+    }
+    for (const AntennaPose& pose : run.recording.truth.antenna_poses) {
+      truths[pose.antenna] = robot_at(scenario, pose);
+    }
+    const auto error_of = [&](const std::string& antenna) {
+      const PlanarPose& end = ends.at(antenna);
+      const PlanarPose& truth = truths.at(antenna);
+      return Eigen::Vector3d(end.x - truth.x, end.y - truth.y,
+                             std::remainder(end.yaw - truth.yaw, 2.0 * kPi));
+    };
+    const Eigen::Vector3d error = error_of("antenna");
+    sum += error.dot(drift_of("antenna", believed).back().since_start.inverse() * error) / kRuns;
+    EXPECT_EQ(error_of("of_other"), Eigen::Vector3d::Zero());
+    EXPECT_TRUE(drift_of("of_other", believed).empty());
+  }
+  EXPECT_NEAR(sum, 3.0, 5.0 * std::sqrt(6.0 / kRuns));
+}
+
 struct Outcome {
   int located = 0;
   int far_off = 0;      ///< By over three expected errors.
@@ -117,6 +176,23 @@ TEST(OdometryDrift, IsReducedByAllTagsTogether) {
   EXPECT_GT(together.located, 50);
   EXPECT_GT(together.located, singly.located);
   EXPECT_LT(together.mean_m, singly.mean_m);
+}
+
+// Wheels so bad that whole cycles are lost claim nothing, and no latency.
+TEST(OdometryDrift, ThatIsTooLargeIsNoPosition) {
+  Scenario scenario = drive_by_wheels(0.04);
+  for (const char* const method : {"joint", "auto", "hyperbola"}) {
+    scenario.localization.method = method;
+    Diagnostics diagnostics;
+    for (const SeedRun& run : run_seeds(scenario, 1, 4, {}, diagnostics)) {
+      for (const TagOutcome& tag : run.outcomes) {
+        EXPECT_NE(tag.estimate.verdict, Verdict::kLocated) << method << " " << tag.estimate.tag;
+      }
+    }
+    for (const std::string& warning : diagnostics.warnings()) {
+      EXPECT_FALSE(contains(warning, "stamped")) << warning;
+    }
+  }
 }
 
 TEST(OdometryDrift, OnlyPosesOfWheelsDrift) {

@@ -96,7 +96,10 @@ void warn_of_navigating_robot(YamlMap& map, const Scenario& scenario,
 }
 
 void warn_of_navigation(YamlMap map, Diagnostics& diagnostics) {
-  if (!map.has("map")) return;
+  if (!map.has("map")) {
+    if (map.has("map_sigma_m")) warn(map.at("map_sigma_m"), "without a given map", diagnostics);
+    return;
+  }
   if (map.has("mapping")) warn(map.at("mapping"), "with a given map", diagnostics);
 }
 

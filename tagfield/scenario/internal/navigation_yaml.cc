@@ -133,6 +133,7 @@ PoseSource read_navigation(const YamlValue& value, NavigationSpec& navigation) {
   const PoseSource mode = map.has("mode") ? mode_of(map.at("mode")) : PoseSource::kSlam;
   if (map.has("start")) navigation.start = start_of(map.at("start"));
   if (map.has("map")) navigation.map = resolve_path(map.at("map"));
+  if (map.has("map_sigma_m")) navigation.map_sigma_m = map.at("map_sigma_m").number(kNotNegative);
   navigation.keep_out = map.boolean("keep_out", navigation.keep_out);
   if (map.has("laser")) navigation.laser = laser_of(YamlMap(map.at("laser")));
   if (map.has("odometry")) {

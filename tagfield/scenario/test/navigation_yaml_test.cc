@@ -55,7 +55,7 @@ TEST(NavigationYaml, TakesAModeAlone) {
 TEST(NavigationYaml, TakesEveryKey) {
   const Scenario scenario =
       load("",
-           "{mode: slam, start: random, map: m.yaml, keep_out: false,"
+           "{mode: slam, start: random, map: m.yaml, map_sigma_m: 0.03, keep_out: false,"
            " laser: {beams: 361, first_angle_deg: -45, last_angle_deg: 90, min_range_m: 0.1,"
            " max_range_m: 12, rate_hz: 20, sigma_m: 0.02, sweep_s: 0.01, pose: [0.2, 0, 0.4]},"
            " odometry: {alpha1: 0.1, alpha2: 0.2, alpha3: 0.3, alpha4: 0.4},"
@@ -66,6 +66,7 @@ TEST(NavigationYaml, TakesEveryKey) {
   const NavigationSpec& spec = navigation_of(scenario);
   EXPECT_EQ(spec.start, StartBelief::kRandom);
   EXPECT_TRUE(holds(spec.map, "/m.yaml"));
+  EXPECT_EQ(spec.map_sigma_m, 0.03);
   EXPECT_FALSE(spec.keep_out);
   EXPECT_EQ(spec.laser.beams, 361);
   EXPECT_NEAR(spec.laser.first_angle_rad, -kPi / 4.0, 1e-12);
