@@ -26,6 +26,7 @@
 #include "tagfield/files/read_overview.h"
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/localization/pose_jumps.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/report/run_files.h"
@@ -228,6 +229,8 @@ Json describe_recording(const std::string& path, Diagnostics& diagnostics) {
   options.max_reads = kReadsToReadAnew;
   const BagRecording bag = read_bag(path, options, diagnostics);
   Json json = {{"kind", "recording of ROS"}};
+  Diagnostics of_localization;  // It reports stray poses and more, together with the reads.
+  warn_of_pose_jumps(tracks_of(bag.believed.poses, of_localization), diagnostics);
   add_reads(bag.unreported ? bag.unreported->overview : overview_of(bag.reads), json);
   json["duration_s"] = bag.duration_s;
   json["believed_poses"] = bag.believed.poses.empty()

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/localization/drift.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/outliers.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
@@ -193,6 +194,18 @@ LocalizationResult locate_robustly(const std::vector<Method>& methods,
 /// Largest number of tags located with a known world unless requested: each takes seconds.
 constexpr std::size_t kMaxThroughWorld = 100;
 
+/// Drift of the poses while a tag is read beyond which whole cycles between parts of the path are
+/// not observable, as for `ml`: `multipath` searches for tags along the path as it is believed.
+constexpr double kMaxDrift = 1.0 / 24.0;  // [wavelengths]
+
+bool drifts_too_far(const LocalizationProblem& problem, Diagnostics& diagnostics) {
+  if (usual_drift_in_wavelengths(problem) <= kMaxDrift) return false;
+  diagnostics.warn(
+      "the world is known, but its reflections are not traced: the wheels usually drift by over a "
+      "24th of a wavelength while a tag is read, and 'multipath' starts from the path as believed");
+  return true;
+}
+
 /// Whether a known world is available and may be used.
 bool is_through_world(const AutomaticOptions& options, const LocalizationProblem& problem,
                       const DataTraits& traits, Diagnostics& diagnostics) {
@@ -203,6 +216,7 @@ bool is_through_world(const AutomaticOptions& options, const LocalizationProblem
         "model: multipath has one)");
   }
   if (!problem.trace || !traits.antennas_move || !traits.has_phases) return false;
+  if (drifts_too_far(problem, diagnostics)) return false;
   if (problem.samples.size() <= kMaxThroughWorld || options.wants_known_world) return true;
   diagnostics.warn(
       fmt::format("the world is known, but tracing its reflections for more than {} tags takes "

@@ -134,11 +134,16 @@ double usual_drift_while_read(const LocalizationProblem& problem) {
   return median(std::move(drifts));
 }
 
+double usual_drift_in_wavelengths(const LocalizationProblem& problem) {
+  const double drift_m = usual_drift_while_read(problem);
+  return drift_m > 0.0 ? drift_m / longest_wavelength(problem) : 0.0;
+}
+
 void refuse_drifting(const LocalizationProblem& problem, LocalizationResult& result,
                      Diagnostics& diagnostics) {
   if (result.method == "joint" && !problem.reference_tags.empty()) return;
   const double drift_m = usual_drift_while_read(problem);
-  if (drift_m <= 0.5 * longest_wavelength(problem)) return;
+  if (usual_drift_in_wavelengths(problem) <= 0.5) return;
   const std::string why = fmt::format(
       "the wheels drift by {:.2f} m (standard deviation) while a tag is read, over half a "
       "wavelength, which reads can't correct",

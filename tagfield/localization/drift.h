@@ -19,6 +19,9 @@ double drift_while_read(const LocalizationProblem& problem, const std::string& t
 /// Same, the median over all tags.
 double usual_drift_while_read(const LocalizationProblem& problem);
 
+/// Same, in wavelengths of the lowest carrier.
+double usual_drift_in_wavelengths(const LocalizationProblem& problem);
+
 /// Refuses all tags, with a warning, where poses usually bend by over half a wavelength while a tag
 /// is read: whole cycles are then lost, other positions and poses explain the phases as well, and a
 /// fit finds one of them. Not for `joint` with reference tags, which straighten the path.

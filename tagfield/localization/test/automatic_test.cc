@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/automatic.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -246,6 +248,23 @@ TEST(Automatic, TakesTheWorldForKnownUnlessItMustNot) {
     ASSERT_EQ(estimate.verdict, Verdict::kLocated) << estimate.reason;
     const Eigen::Vector3d off = estimate.candidates.front().p_WT - hall.truth.at(estimate.tag);
     EXPECT_LT(off.norm(), 0.02) << estimate.tag;
+  }
+  // Wheels that drift by ten micrometres from pose to pose do no harm, by a centimetre they do.
+  for (const double step_m : {1e-5, 0.01}) {
+    for (const auto& [antenna, track] : hall.problem.tracks) {
+      std::vector<Drift> drift;
+      for (const StampedPose& pose : track.X_WA) {
+        drift.push_back({pose.stamp, pose.X_WB.translation.head<2>()});
+        drift.back().since_last(0, 0) = step_m * step_m;
+        drift.back().since_last(1, 1) = step_m * step_m;
+      }
+      hall.problem.drift[antenna] = drift;
+    }
+    Diagnostics of_drift;
+    const bool is_through = automatic.locate(hall.problem, 1, of_drift).method == "multipath";
+    EXPECT_EQ(is_through, step_m < 1e-3);
+    const std::string warnings = fmt::format("{}", fmt::join(of_drift.warnings(), "\n"));
+    EXPECT_EQ(warnings.find("reflections are not traced") == std::string::npos, is_through);
   }
 }
 
