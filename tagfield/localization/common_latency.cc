@@ -315,7 +315,8 @@ bool is_drift(const LocalizationProblem& problem, const LocalizationResult& resu
 
 void refuse_common_latency(const LocalizationProblem& problem, int threads,
                            LocalizationResult& result, Diagnostics& diagnostics) {
-  if (!result.corrected_poses.empty() && stated_pose_error(problem)) return;
+  const bool is_error_stated = stated_pose_error(problem) || !problem.drift.empty();
+  if (!result.corrected_poses.empty() && is_error_stated) return;
   if (!latency_by(problem, threads, result, kFewReads, kSuspicious)) return;
   const std::optional<double> late_s = latency_by(problem, threads, result, kManyReads, kCertain);
   if (!late_s || is_drift(problem, result, *late_s)) return;
