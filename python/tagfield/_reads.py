@@ -214,8 +214,8 @@ def calibrate(reads: Any, poses: Any, tags: Mapping[str, Any], *, phase_centre_s
 
 _LATEST_NS = 2**63 - 1
 _HEIGHTS = {"tag_height_m", "tag_heights_m", "vertical_side", "offset_rad", "offsets_rad"}
-_DRIFTS = ("the poses are wheel odometry of a driven robot: what they are off by as a whole, since the start, is not in the "
-           "expected errors (scenario=, the one that was driven, adds it)")
+_DRIFTS = ("the poses are wheel odometry of a driven robot: what they are off by as a whole, since the start, is not "
+           "in the expected errors (scenario=, the one that was driven, adds it)")
 _KNOWN = _HEIGHTS | {"driven_robot", "side", "box_m", "reference_tags", "pose_sigma_m", "pose_yaw_sigma_deg",
                      "pose_time_constant_s", "world_sigma_m", "max_expected_error_m", "pi_ambiguity"}
 _TRACK = _HEIGHTS - {"vertical_side"} | {"method", "lane", "bidirectional", "line", "speed_m_s", "acceleration_noise"}

@@ -701,13 +701,15 @@ def the_folder_of_a_run_by_wheels_states_their_drift(context):
         for column in ("x_m", "y_m", "expected_error_m"):
             check_near(float(row[column]), float(ours[row["tag"]][column]), 1e-4, f"{row['tag']} {column}")
     # So they do beside a scenario that says otherwise, and with the table alone.
-    context.run_well("localize", run, "--method", "joint", "--scenario", context.shipped("paper_warehouse"), "--out", "beside")
+    context.run_well("localize", run, "--method", "joint", "--scenario", context.shipped("paper_warehouse"),
+                     "--out", "beside")
     tables = ["localize", run / "reads.csv", "--poses", run / "antenna_poses.csv", "--tag-heights",
               run / "tag_heights.csv", "--method", "joint"]
     context.run_well(*tables, "--odometry", run / "odometry.csv", "--out", "tables")
     for name in ("beside", "tables"):
         for row in read_csv(context.folder / name / "estimates.csv"):
-            check_near(float(row["expected_error_m"]), float(ours[row["tag"]]["expected_error_m"]), 1e-4, f"{name} {row['tag']}")
+            check_near(float(row["expected_error_m"]), float(ours[row["tag"]]["expected_error_m"]), 1e-4,
+                       f"{name} {row['tag']}")
     # A folder that states no more than that it was odometry is warned of.
     (run / "odometry.csv").unlink()
     result = context.run_well("localize", run, "--method", "joint", "--out", "old")
