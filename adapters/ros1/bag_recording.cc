@@ -15,7 +15,6 @@
 #include "adapters/ros1/bag_transforms.h"
 #include "adapters/ros1/held_reads.h"
 #include "adapters/ros1/ros2_sweep.h"
-#include "adapters/ros1/silence.h"
 #include "adapters/rosbag2/recording_files.h"
 
 namespace tagfield {
@@ -209,7 +208,6 @@ GoThrough going_through(const std::string& path, std::optional<double> frequency
 
 BagRecording read_bag(const std::string& path, const BagOptions& options,
                       Diagnostics& diagnostics) {
-  const Silence silence;
   HeldReads held(options.max_reads);
   const BagReadSink sink = held.sink();
   const GoThrough go_through = going_through(path, options.frequency_hz, diagnostics);

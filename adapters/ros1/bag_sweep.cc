@@ -15,9 +15,20 @@
 #include <vector>
 
 #include "adapters/ros1/bag_messages.h"
+#include "adapters/ros1/bag_wire.h"
+#include "adapters/ros1/message_content.h"
+#include "adapters/ros1/silence.h"
 
 namespace tagfield {
 namespace {
+
+using recorded::last_name;
+using recorded::take_antenna_truth;
+using recorded::take_array;
+using recorded::take_odometry;
+using recorded::take_reads;
+using recorded::take_tag_positions;
+using recorded::take_transforms;
 
 constexpr double kAssumedFrequency = 865.7e6;  ///< [Hz] As in the paper.
 
@@ -207,6 +218,7 @@ class Sweep {
 BagContent sweep_bag(const std::string& path, std::optional<double> frequency_hz,
                      const BagReadSink& sink, const std::function<void(double share)>& on_progress,
                      Diagnostics& diagnostics) {
+  const Silence silence;
   return with_bag_errors(
       path, [&] { return Sweep(path, frequency_hz, sink, diagnostics).content(on_progress); });
 }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "adapters/ros1/bag_transforms.h"
 
-#include <tf2/buffer_core.h>
-#include <tf2/exceptions.h>
-
 #include <algorithm>
 #include <chrono>
 #include <iterator>
@@ -12,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "tagfield/base/error.h"
+#include "tagfield/poses/trajectory.h"
 
 namespace tagfield {
 namespace {
@@ -22,76 +19,42 @@ namespace {
 constexpr Duration kMaxGap = std::chrono::milliseconds(500);
 constexpr double kStillDistance_m = 0.01;
 
-/// tf2 interprets stamp 0 as "the latest"; so all stamps are counted from a second before the
-/// first.
-class TransformClock {
- public:
-  TransformClock(const std::vector<StampedTransform>& transforms,
-                 const std::vector<RecordedUpdate>& updates) {
-    Time first = Time::max();
-    Time last = Time::min();
-    const auto take = [&](Time stamp) {
-      first = std::min(first, stamp);
-      last = std::max(last, stamp);
-    };
-    for (const StampedTransform& transform : transforms) {
-      if (!transform.is_static) take(transform.stamp);
-    }
-    for (const RecordedUpdate& update : updates) take(update.stamp);
-    if (first > last) first = last = Time{};
-    zero_ = first - std::chrono::seconds(1);
-    span_s_ = std::chrono::duration_cast<std::chrono::seconds>(last - first).count();
-  }
-
-  [[nodiscard]] ros::Time operator()(Time stamp) const {
-    ros::Time converted;
-    converted.fromNSec(static_cast<std::uint64_t>((stamp - zero_).count()));
-    return converted;
-  }
-  /// From the first stamp to the last, with a margin.
-  [[nodiscard]] ros::Duration span() const {
-    // A ros::Duration holds 68 years.
-    if (span_s_ > 2'000'000'000) throw Error("stamps of transforms are over 60 years apart");
-    return {static_cast<std::int32_t>(span_s_) + 10, 0};
-  }
-
- private:
-  Time zero_;
-  std::int64_t span_s_ = 0;
+/// A frame as seen from another one.
+struct Seen {
+  std::string from;
+  RigidTransform X;  ///< The pose of the frame in `from`.
 };
 
-geometry_msgs::TransformStamped to_message(const StampedTransform& transform,
-                                           const ros::Time& stamp) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = stamp;
-  message.header.frame_id = transform.parent;
-  message.child_frame_id = transform.child;
-  message.transform.translation.x = transform.X_PC.translation.x();
-  message.transform.translation.y = transform.X_PC.translation.y();
-  message.transform.translation.z = transform.X_PC.translation.z();
-  message.transform.rotation.x = transform.X_PC.rotation.x();
-  message.transform.rotation.y = transform.X_PC.rotation.y();
-  message.transform.rotation.z = transform.X_PC.rotation.z();
-  message.transform.rotation.w = transform.X_PC.rotation.w();
-  return message;
-}
-
-RigidTransform from_message(const geometry_msgs::Transform& transform) {
-  const geometry_msgs::Quaternion& q = transform.rotation;
-  const geometry_msgs::Vector3& p = transform.translation;
-  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
-}
-
-/// The transforms of one frame to its parent, by stamp, and how many of them were passed to tf2.
+/// The transforms of one frame to its parent, by stamp. If all are static, the last one counts.
 struct Edge {
   std::vector<StampedTransform> transforms;
-  std::size_t handed_over = 0;
+  bool is_static = true;
+
+  [[nodiscard]] auto first_from(Time stamp) const {
+    return std::lower_bound(
+        transforms.begin(), transforms.end(), stamp,
+        [](const StampedTransform& transform, Time time) { return transform.stamp < time; });
+  }
+
+  /// As tf2 does it: interpolated, but never before the first stamp or after the last. Where the
+  /// parent changes in between, the earlier transform counts.
+  [[nodiscard]] std::optional<Seen> at(Time stamp) const {
+    if (is_static) return Seen{transforms.back().parent, transforms.back().X_PC};
+    const auto after = first_from(stamp);
+    if (after == transforms.end()) return std::nullopt;
+    if (after->stamp == stamp) return Seen{after->parent, after->X_PC};
+    if (after == transforms.begin()) return std::nullopt;
+    const auto before = std::prev(after);
+    if (before->parent != after->parent) return Seen{before->parent, before->X_PC};
+    const double share =
+        to_seconds(stamp - before->stamp) / to_seconds(after->stamp - before->stamp);
+    return Seen{before->parent, interpolate(before->X_PC, after->X_PC, share)};
+  }
 
   /// The transforms before and after `stamp` if they are too far apart in time.
   [[nodiscard]] std::optional<std::pair<RigidTransform, RigidTransform>> gap_at(Time stamp) const {
-    const auto after = std::lower_bound(
-        transforms.begin(), transforms.end(), stamp,
-        [](const StampedTransform& transform, Time time) { return transform.stamp < time; });
+    if (is_static) return std::nullopt;
+    const auto after = first_from(stamp);
     if (after == transforms.begin() || after == transforms.end() || after->stamp == stamp) {
       return std::nullopt;
     }
@@ -101,22 +64,19 @@ struct Edge {
   }
 };
 
-/// tf2's buffer, filled only up to the requested stamp: it searches the neighbours of a stamp from
-/// the newest on, which over a whole bag would take time quadratic in its length.
-class RisingBuffer {
+/// All transforms of a recording.
+class TransformTree {
  public:
-  RisingBuffer(std::vector<StampedTransform> transforms, const TransformClock& clock)
-      : clock_(clock), buffer_(clock.span()) {
+  explicit TransformTree(std::vector<StampedTransform> transforms) {
     for (StampedTransform& transform : transforms) {
       parents_[transform.child] = transform.parent;
       frames_.insert({transform.child, transform.parent});
-      if (transform.is_static) {
-        buffer_.setTransform(to_message(transform, ros::Time(1)), "bag", true);
-      } else {
-        edges_[transform.child].transforms.push_back(std::move(transform));
-      }
+      Edge& edge = edges_[transform.child];
+      if (edge.is_static && !transform.is_static) edge = {{}, false};
+      if (edge.is_static == transform.is_static) edge.transforms.push_back(std::move(transform));
     }
     for (auto& [child, edge] : edges_) {
+      if (edge.is_static) continue;
       std::stable_sort(edge.transforms.begin(), edge.transforms.end(),
                        [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
     }
@@ -125,24 +85,11 @@ class RisingBuffer {
   [[nodiscard]] bool knows(const std::string& frame) const { return frames_.count(frame) > 0; }
   [[nodiscard]] const std::map<std::string, std::string>& parents() const { return parents_; }
 
-  /// Passes on all transforms up to `stamp`, and for each frame the first one that is not before
-  /// it.
-  void go_to(Time stamp) {
-    for (auto& [child, edge] : edges_) {
-      std::size_t& next = edge.handed_over;
-      while (next < edge.transforms.size() &&
-             (next == 0 || edge.transforms[next - 1].stamp < stamp)) {
-        hand_over(edge.transforms[next]);
-        ++next;
-      }
-    }
-  }
-
   /// Whether the pose of frame B in frame F would be a straight line across a gap of a transform on
   /// the way from B to F, in which that moved B.
   [[nodiscard]] bool bridges_gap(const std::string& F, const std::string& B, Time stamp) const {
     std::string frame = B;
-    // Terminates even for a loop, which tf2 refuses.
+    // Terminates even for a loop.
     for (std::size_t i = 0; i < parents_.size() && frame != F; ++i) {
       const auto parent = parents_.find(frame);
       if (parent == parents_.end()) return false;
@@ -153,17 +100,33 @@ class RisingBuffer {
     return false;
   }
 
-  /// X_FB of frame B in frame F.
+  /// X_FB of frame B in frame F, by way of their nearest common ancestor.
   [[nodiscard]] std::optional<RigidTransform> find(const std::string& F, const std::string& B,
                                                    Time stamp) const {
-    try {
-      return from_message(buffer_.lookupTransform(F, B, clock_(stamp)).transform);
-    } catch (const tf2::TransformException&) {
-      return std::nullopt;
+    const std::vector<Seen> above_B = seen_from_above(B, stamp);
+    for (const Seen& of_F : seen_from_above(F, stamp)) {
+      for (const Seen& of_B : above_B) {
+        if (of_B.from == of_F.from) return of_F.X.inverse() * of_B.X;
+      }
     }
+    return std::nullopt;
   }
 
  private:
+  /// From itself and, as far as their transforms are known at `stamp`, from all its ancestors. Of a
+  /// loop, which tf has no poses in, only from itself.
+  [[nodiscard]] std::vector<Seen> seen_from_above(const std::string& frame, Time stamp) const {
+    std::vector<Seen> seen = {{frame, {}}};
+    for (auto edge = edges_.find(frame); edge != edges_.end();
+         edge = edges_.find(seen.back().from)) {
+      const std::optional<Seen> next = edge->second.at(stamp);
+      if (!next) break;
+      seen.push_back({next->from, next->X * seen.back().X});
+      if (seen.size() > edges_.size() + 1) return {{frame, {}}};
+    }
+    return seen;
+  }
+
   /// Whether an edge to child frame C moves the origin of B across a gap.
   [[nodiscard]] bool moves_in_gap(const Edge& edge, const std::string& C, const std::string& B,
                                   Time stamp) const {
@@ -175,26 +138,20 @@ class RisingBuffer {
     return (gap->second * p_CB - gap->first * p_CB).norm() > kStillDistance_m;
   }
 
-  void hand_over(const StampedTransform& transform) {
-    buffer_.setTransform(to_message(transform, clock_(transform.stamp)), "bag");
-  }
-
-  const TransformClock& clock_;
-  tf2::BufferCore buffer_;
   std::map<std::string, Edge> edges_;  ///< By child frame.
   std::map<std::string, std::string> parents_;
   std::set<std::string> frames_;
 };
 
 /// Whether an antenna's pose in `fixed` is based on odometry only, or on a map as well.
-std::string source_of(const RisingBuffer& buffer, const std::string& fixed, std::string frame) {
+std::string source_of(const TransformTree& tree, const std::string& fixed, std::string frame) {
   bool odometry = false;
-  // Terminates even for a loop, which tf2 refuses.
-  for (std::size_t i = 0; i <= buffer.parents().size(); ++i) {
+  // Terminates even for a loop.
+  for (std::size_t i = 0; i <= tree.parents().size(); ++i) {
     if (frame == "map") return "tf";
     odometry = odometry || frame == "odom";
-    const auto parent = buffer.parents().find(frame);
-    if (frame == fixed || parent == buffer.parents().end()) break;
+    const auto parent = tree.parents().find(frame);
+    if (frame == fixed || parent == tree.parents().end()) break;
     frame = parent->second;
   }
   return odometry ? "odometry" : "tf";
@@ -225,21 +182,19 @@ TransformedPoses chosen(std::vector<TransformedPoses> in_frames, const Counts& u
 TransformedPoses poses_from_transforms(std::vector<StampedTransform> transforms,
                                        const std::vector<RecordedUpdate>& updates,
                                        const std::vector<std::string>& frames) {
-  const TransformClock clock(transforms, updates);
-  RisingBuffer buffer(std::move(transforms), clock);
+  const TransformTree tree(std::move(transforms));
   std::vector<TransformedPoses> in_frames;
   for (const std::string& frame : frames) {
-    if (buffer.knows(frame)) in_frames.push_back({frame, "tf", {}});
+    if (tree.knows(frame)) in_frames.push_back({frame, "tf", {}});
   }
   Counts counts;
   for (const RecordedUpdate& update : updates) {
-    if (!buffer.knows(update.frame)) continue;
-    buffer.go_to(update.stamp);
+    if (!tree.knows(update.frame)) continue;
     ++counts[update.antenna];
     for (TransformedPoses& in_frame : in_frames) {
-      const auto X_FA = buffer.find(in_frame.frame, update.frame, update.stamp);
-      if (!X_FA || buffer.bridges_gap(in_frame.frame, update.frame, update.stamp)) continue;
-      if (source_of(buffer, in_frame.frame, update.frame) == "odometry") {
+      const auto X_FA = tree.find(in_frame.frame, update.frame, update.stamp);
+      if (!X_FA || tree.bridges_gap(in_frame.frame, update.frame, update.stamp)) continue;
+      if (source_of(tree, in_frame.frame, update.frame) == "odometry") {
         in_frame.source = "odometry";
       }
       in_frame.poses.push_back({update.stamp, update.antenna, *X_FA});

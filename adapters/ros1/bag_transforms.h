@@ -19,9 +19,9 @@ struct TransformedPoses {
   std::vector<AntennaPose> poses;
 };
 
-/// The poses of the antennas at their updates, interpolated by tf2 at exactly those stamps, in the
-/// first of `frames` that can express every antenna with a frame known to tf in at least half of
-/// its updates; if there is none, in the frame that can express most. `updates` must be in
+/// The poses of the antennas at their updates, interpolated at exactly those stamps as tf2 does it,
+/// in the first of `frames` that can express every antenna with a frame known to tf in at least
+/// half of its updates; if there is none, in the frame that can express most. `updates` must be in
 /// chronological order.
 TransformedPoses poses_from_transforms(std::vector<StampedTransform> transforms,
                                        const std::vector<RecordedUpdate>& updates,

@@ -74,14 +74,6 @@ void read_fields(IStream& stream, nav_msgs::Odometry& message) { stream.next(mes
 
 }  // namespace
 
-std::string to_string(const MessageLocation& place) {
-  return fmt::format("{}: topic {}, message {}", place.file, place.topic, place.number);
-}
-
-void fail_at(const MessageLocation& place, const std::string& message) {
-  throw Error(fmt::format("{}: {}", to_string(place), message));
-}
-
 template <typename M>
 M decode(std::vector<std::uint8_t>& bytes, const MessageLocation& place) {
   M message;

@@ -5,23 +5,11 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "adapters/ros1/message_location.h"
+
 namespace tagfield {
-
-/// Location of a message, for error messages.
-struct MessageLocation {
-  std::string file;
-  std::string topic;
-  std::size_t number = 0;  ///< Within its topic, from 1 on.
-};
-
-/// "FILE: topic /x, message 3"
-std::string to_string(const MessageLocation& place);
-
-/// Throws Error "FILE: topic /x, message 3: MESSAGE".
-[[noreturn]] void fail_at(const MessageLocation& place, const std::string& message);
 
 /// Decodes all of `bytes` as a message of type M: tagfield_msgs' TagReads, AntennaTruth and
 /// TagPositions, rfid_sensor's TagArray, nav_msgs' Odometry, tf2_msgs' TFMessage. Throws Error if

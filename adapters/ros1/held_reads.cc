@@ -6,7 +6,6 @@
 #include <iterator>
 #include <utility>
 
-#include "adapters/ros1/silence.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -20,7 +19,6 @@ TagRead&& with_wrapped_phase(TagRead&& read) {
 /// Reads the recording again and passes on what follows after that many resets.
 void tell_again(const std::string& path, const GoThrough& go_through, std::size_t resets,
                 std::size_t count, const BagReads& to) {
-  const Silence silence;
   std::size_t resets_left = resets;
   std::size_t passed_on = 0;
   const BagReadSink sink{[&](TagRead&& read, const std::string& /*frame*/) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// In C++17, like all code that includes messages of ROS 1: ROS 2 messages are processed by the same
-// functions.
 #include "adapters/ros1/ros2_sweep.h"
 
 #include <fmt/format.h>
@@ -9,12 +7,19 @@
 #include <string_view>
 #include <vector>
 
-#include "adapters/ros1/bag_messages.h"
+#include "adapters/ros1/message_content.h"
 #include "adapters/ros2/ros2_messages.h"
 #include "adapters/rosbag2/recording_files.h"
 
 namespace tagfield {
 namespace {
+
+using recorded::last_name;
+using recorded::take_antenna_truth;
+using recorded::take_odometry;
+using recorded::take_reads;
+using recorded::take_tag_positions;
+using recorded::take_transforms;
 
 constexpr std::size_t kMaxOpen = 16;
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Suppression of printing by ROS' libraries.
+/// Suppression of printing by rosbag.
 #pragma once
 
 #include <console_bridge/console.h>
 
 namespace tagfield {
 
-/// rosbag and tf2 print their errors; here they are caught as exceptions or checked for.
+/// rosbag prints its errors; here they are caught as exceptions or checked for.
 class Silence {
  public:
   Silence() { console_bridge::noOutputHandler(); }
