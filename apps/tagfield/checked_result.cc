@@ -192,7 +192,7 @@ const FolderKind* folder_kind(const std::string& path) {
 std::string checked_kind(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   if (ending == ".csv") {
-    const std::string kind = kind_of_table(path);
+    std::string kind = kind_of_table(path);
     if (kind != kTableOfReads) describe_table_of(kind, path);
     return kind;
   }

@@ -124,6 +124,43 @@ void warn_of_unread_tags(const LocalizeArguments& asked, const KnownTables& tabl
   }
 }
 
+namespace {
+
+void add_pose_error_options(CLI::App& command, LocalizeArguments& arguments) {
+  CLI::Option* sigma =
+      command
+          .add_option("--pose-sigma", arguments.pose_sigma_m,
+                      "Error of the poses, standard deviation in x and y [m]; 0 for exact "
+                      "(default: the covariances in the table of poses, or unknown)")
+          ->check(CLI::Range(0.0, kMaxLength_m));
+  command
+      .add_option("--odometry", arguments.odometry_file,
+                  "The poses are wheel odometry: where its antennas are on their robots, and its "
+                  "errors, as odometry.csv of a run (docs/files.md); its drift is then in the "
+                  "expected errors")
+      ->excludes(sigma);
+  command.add_option("--pose-yaw-sigma", arguments.pose_yaw_sigma_deg, "Likewise in yaw [deg]")
+      ->check(fault_of_non_negative)
+      ->needs(sigma);
+  command
+      .add_option("--pose-time-constant", arguments.pose_time_constant_s,
+                  "Time constant of the poses' error [s] (default 5)")
+      ->check(fault_of_positive)
+      ->needs(sigma);
+  CLI::Option* map_sigma = command
+                               .add_option("--map-sigma", arguments.map_sigma_m,
+                                           "Error of the map that the poses refer to, as a whole: "
+                                           "standard deviation of its shift in x and y [m]")
+                               ->check(CLI::Range(0.0, kMaxLength_m));
+  command
+      .add_option("--map-yaw-sigma", arguments.map_yaw_sigma_deg,
+                  "Likewise of its rotation about the first pose [deg]")
+      ->check(fault_of_non_negative)
+      ->needs(map_sigma);
+}
+
+}  // namespace
+
 void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
   CLI::Option* of_all =
       command
@@ -170,36 +207,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
                   "several times")
       ->take_all()
       ->allow_extra_args(false);
-  CLI::Option* sigma =
-      command
-          .add_option("--pose-sigma", arguments.pose_sigma_m,
-                      "Error of the poses, standard deviation in x and y [m]; 0 for exact "
-                      "(default: the covariances in the table of poses, or unknown)")
-          ->check(CLI::Range(0.0, kMaxLength_m));
-  command
-      .add_option("--odometry", arguments.odometry_file,
-                  "The poses are wheel odometry: where its antennas are on their robots, and its "
-                  "errors, as odometry.csv of a run (docs/files.md); its drift is then in the "
-                  "expected errors")
-      ->excludes(sigma);
-  command.add_option("--pose-yaw-sigma", arguments.pose_yaw_sigma_deg, "Likewise in yaw [deg]")
-      ->check(fault_of_non_negative)
-      ->needs(sigma);
-  command
-      .add_option("--pose-time-constant", arguments.pose_time_constant_s,
-                  "Time constant of the poses' error [s] (default 5)")
-      ->check(fault_of_positive)
-      ->needs(sigma);
-  CLI::Option* map_sigma = command
-                               .add_option("--map-sigma", arguments.map_sigma_m,
-                                           "Error of the map that the poses refer to, as a whole: "
-                                           "standard deviation of its shift in x and y [m]")
-                               ->check(CLI::Range(0.0, kMaxLength_m));
-  command
-      .add_option("--map-yaw-sigma", arguments.map_yaw_sigma_deg,
-                  "Likewise of its rotation about the first pose [deg]")
-      ->check(fault_of_non_negative)
-      ->needs(map_sigma);
+  add_pose_error_options(command, arguments);
   command
       .add_option("--world-sigma", arguments.world_sigma_m,
                   "For 'multipath': how far surfaces of the scenario's world may be from their "
