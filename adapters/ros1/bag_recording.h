@@ -79,9 +79,9 @@ bool is_bag(const std::string& path);
 ///   included;
 /// - tagfield_msgs/AntennaTruth and TagPositions: the truth; nav_msgs/Odometry on topics that end
 ///   in ground_truth/odom: the truth of robots;
-/// - tf2_msgs/TFMessage on topics that end in tf or tf_static: the believed poses, interpolated by
-///   tf2 at the header stamps of reads and updates. An antenna that is unknown to tf but never
-///   moved has its true pose, as if measured by hand, if that is in the same frame.
+/// - tf2_msgs/TFMessage on topics that end in tf or tf_static: the believed poses, interpolated as
+///   tf2 does it at the header stamps of reads and updates. An antenna that is unknown to tf but
+///   never moved has its true pose, as if measured by hand, if that is in the same frame.
 /// All stamps are header stamps, exact to the nanosecond. After a reset of time only the last part
 /// is used, with a warning. Throws Error with one line if the file is incomplete, has neither kind
 /// of reads, or contains messages of other versions, truncated ones, or absurd numbers.

@@ -15,6 +15,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/json_option.h"
+#include "apps/tagfield/localize_files.h"
 #include "apps/tagfield/localize_known.h"
 #include "apps/tagfield/method_text.h"
 #include "apps/tagfield/odd_tables.h"
@@ -22,18 +23,11 @@
 #include "apps/tagfield/recording.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/table.h"
-#include "apps/tagfield/top_view_file.h"
 #include "tagfield/base/file_kind.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/files/files.h"
-#include "tagfield/files/poses_csv.h"
-#include "tagfield/files/reads_csv.h"
 #include "tagfield/files/staged_folder.h"
-#include "tagfield/files/tag_heights_csv.h"
-#include "tagfield/files/tag_positions_csv.h"
-#include "tagfield/files/truth_csv.h"
-#include "tagfield/report/estimates_csv.h"
 #include "tagfield/report/method_summary.h"
 #include "tagfield/report/page.h"
 #include "tagfield/report/summary.h"
@@ -169,88 +163,11 @@ Summary summary_of(const LocalizeArguments& arguments, const LoadedRecording& re
   return summary;
 }
 
-bool is_empty(const Truth& truth) {
-  return truth.antenna_poses.empty() && truth.robot_poses.empty() && truth.tag_positions.empty() &&
-         truth.distances.empty();
-}
-
-/// Stages reads, and the truth with its distances, that are not held in memory.
-void stage_unreported(const UnreportedReads& unreported, const Truth& truth, StagedFolder& folder) {
-  const bool has_doppler = unreported.overview.has_doppler;
-  const bool has_truth = unreported.has_distances || !is_empty(truth);
-  if (has_truth) stage_true_positions(truth, folder);
-  ProgressBar bar("writing reads");
-  BagReads rows;
-  rows.on_progress = [&bar](double share) { bar.show(share); };
-  folder.add_written("reads.csv", [&](GrowingFile& reads) {
-    reads.text() += reads_header(has_doppler);
-    rows.on_read = [&](const TagRead& read) {
-      append_row(read, has_doppler, reads.text());
-      reads.sync();
-    };
-    if (!has_truth) return unreported.tell(rows);
-    folder.add_written(kDistancesFile, [&](GrowingFile& distances) {
-      distances.text() += kDistancesHeader;
-      rows.on_distance = [&](const TrueDistance& distance) {
-        append_row(distance, distances.text());
-        distances.sync();
-      };
-      unreported.tell(rows);
-    });
-  });
-}
-
-void stage(const LocalizeArguments& arguments, const LoadedRecording& recording,
-           const std::optional<ScenarioWithWorld>& loaded, const LocalizationOptions& options,
-           const LocalizationResult& result, StagedFolder& folder) {
-  if (!recording.table.empty()) {
-    folder.add_copy("reads.csv", recording.table);
-  } else if (!recording.unreported) {
-    folder.add("reads.csv", reads_to_csv(recording.reads));
-  }
-  folder.add("antenna_poses.csv", poses_to_csv(recording.poses.poses));
-  if (!recording.other.poses.empty()) {
-    folder.add("compared_poses.csv", poses_to_csv(recording.other.poses));
-  }
-  folder.add("estimates.csv", estimates_to_csv(result.estimates));
-  if (!result.corrected_poses.empty()) {
-    folder.add("corrected_poses.csv", poses_to_csv(result.corrected_poses));
-  }
-  if (!options.known.reference_tags.empty()) {
-    folder.add("reference_tags.csv", tag_positions_to_csv(options.known.reference_tags));
-  }
-  if (recording.unreported) {
-    stage_unreported(*recording.unreported, recording.truth, folder);
-  } else if (!recording.true_distances.empty() && !is_empty(recording.truth)) {
-    stage_true_positions(recording.truth, folder);
-    folder.add_copy(kDistancesFile, recording.true_distances);
-  } else if (!is_empty(recording.truth)) {
-    stage_truth(recording.truth, folder);
-  }
-  if (!arguments.tables.odometry.empty()) {
-    folder.add("odometry.csv", odometry_to_csv(arguments.tables.odometry));
-  }
-  if (!options.known.heights.of_tag.empty()) {
-    folder.add("tag_heights.csv", tag_heights_to_csv(options.known.heights.of_tag));
-  }
-  if (loaded) stage_top_view(*loaded, folder);
-}
-
 /// Whether the reads belong to the run in the folder, whose truth and world then apply to them.
 bool is_of_this_run(const LocalizeArguments& arguments, const std::string& out) {
   fs::path of_reads = fs::weakly_canonical(arguments.recording);
   if (!is_folder(of_reads)) of_reads = of_reads.parent_path();
   return of_reads == fs::weakly_canonical(out) && !is_bag(arguments.recording);
-}
-
-/// Keeps the run's files that can't be recreated without a scenario and are not staged already.
-void keep_of_this_run(const std::string& out, StagedFolder& folder) {
-  for (const char* name : {"top_view.json", "tag_heights.csv", "odometry.csv"}) {
-    const fs::path file = fs::path(out) / name;
-    if (is_there(file) && !is_there(folder.staging() / name)) {
-      folder.add(name, read_text_file(file.string()));
-    }
-  }
 }
 
 /// A run's folder states what its localization knew, which is used unless the command line or a
@@ -448,7 +365,7 @@ int localize(const LocalizeArguments& asked) {
   catch_interrupts();  // The rest takes only a moment, unless reads don't fit in memory, and no
                        // incomplete files remain.
   StagedFolder folder(out);
-  stage(arguments, recording, loaded, options, result, folder);
+  stage_localization(recording, loaded, options, result, arguments.tables.odometry, folder);
   const bool in_parts = recording.stored.has_value();
   if (in_parts && interrupted()) return kExitInterrupted;
   folder.add("summary.json", to_json(summary));

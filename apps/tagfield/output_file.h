@@ -21,9 +21,8 @@ OutputFile mcap_output(const std::string& path);
 /// "--force", for commands without a folder for their results.
 void add_force_option(CLI::App& command, bool& force);
 
-/// Throws Error if the file would replace one of `inputs` (of a run's folder,
-/// its reads), or, unless `force` is set, an existing
-/// file of another kind.
+/// Throws Error if the file would replace one of `inputs` (of a run's folder, its reads), or,
+/// unless `force` is set, an existing file of another kind.
 void require_replaceable(const OutputFile& output, const std::vector<std::string>& inputs,
                          bool force);
 

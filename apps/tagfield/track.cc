@@ -13,6 +13,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/json_option.h"
+#include "apps/tagfield/number_checks.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/stored_reads.h"
 #include "apps/tagfield/track_files.h"
@@ -186,7 +187,7 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
           "this times sqrt(t). Default 0.005, a conveyor; a person walks with 0.3. Where phases "
           "demand more, up to 30 times as much is tried (along a lane 100 times), with doubled "
           "errors")
-      ->check(CLI::NonNegativeNumber);
+      ->check(fault_of_non_negative);
   command
       .add_option("--tag-height", arguments.tag_height_m,
                   "Height of the tags [m, world] (default: estimated, near that of the antennas)")

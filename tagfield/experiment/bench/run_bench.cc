@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <map>
 #include <mutex>
 #include <numeric>
 
@@ -13,6 +12,7 @@
 #include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/internal/condition_run.h"
 #include "tagfield/experiment/internal/faults.h"
+#include "tagfield/experiment/internal/weighed_share.h"
 #include "tagfield/experiment/store/method_runs_json.h"
 #include "tagfield/experiment/store/run_store.h"
 #include "tagfield/simulator/simulation.h"
@@ -75,56 +75,24 @@ bool do_job(Job& job, const RunControl& control, RunStore* store) {
   return true;
 }
 
-/// The share of the work that is done. A job costs the mean time of those of its condition so far,
-/// or, before the first is done, of all.
+/// Reports the share of the work that is done.
 class Progress {
  public:
   Progress(const RunControl& control, const std::vector<Job>& jobs) : control_(control) {
-    for (const Job& job : jobs) ++costs_[job.condition].jobs;
+    for (const Job& job : jobs) share_.expect(job.condition);
   }
 
   /// `seconds`: what the job took, or none if the store had its results.
   void add_one(const Job& job, std::optional<double> seconds) {
     const std::lock_guard lock(mutex_);
-    Cost& cost = costs_[job.condition];
-    if (seconds) {
-      ++cost.done;
-      cost.seconds += *seconds;
-    } else {
-      --cost.jobs;
-    }
-    if (control_.on_progress) control_.on_progress(share());
+    share_.finish(job.condition, seconds);
+    if (control_.on_progress) control_.on_progress(share_.done());
   }
 
  private:
-  struct Cost {
-    std::size_t jobs = 0;
-    std::size_t done = 0;
-    double seconds = 0.0;
-  };
-
-  [[nodiscard]] double share() const {
-    double seconds = 0.0;
-    double done = 0.0;
-    for (const auto& [condition, cost] : costs_) {
-      seconds += cost.seconds;
-      done += static_cast<double>(cost.done);
-    }
-    std::size_t left = 0;
-    double left_s = 0.0;
-    for (const auto& [condition, cost] : costs_) {
-      const double each_s = cost.done > 0 ? cost.seconds / static_cast<double>(cost.done)
-                                          : seconds / std::max(done, 1.0);
-      left += cost.jobs - cost.done;
-      left_s += each_s * static_cast<double>(cost.jobs - cost.done);
-    }
-    if (left == 0) return 1.0;
-    return seconds > 0.0 ? seconds / (seconds + left_s) : 0.0;
-  }
-
   const RunControl& control_;
   std::mutex mutex_;
-  std::map<const PreparedCondition*, Cost> costs_;
+  WeighedShare<const PreparedCondition*> share_;
 };
 
 /// One seed of all conditions before the next, so that what each costs is known early; those whose
