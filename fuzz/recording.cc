@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "adapters/ros1/bag_recording.h"
+#include "adapters/bags/bag_recording.h"
 #include "fuzz/input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

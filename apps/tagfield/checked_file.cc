@@ -9,7 +9,7 @@
 #include <set>
 
 #include "adapters/archive/unpacked_archive.h"
-#include "adapters/ros1/bag_recording.h"
+#include "adapters/bags/bag_recording.h"
 #include "apps/tagfield/checked_result.h"
 #include "apps/tagfield/checked_table.h"
 #include "apps/tagfield/command_method.h"

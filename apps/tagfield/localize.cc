@@ -10,8 +10,8 @@
 #include <memory>
 #include <string_view>
 
+#include "adapters/bags/bag_recording.h"
 #include "adapters/http/run_json.h"
-#include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/json_option.h"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "adapters/ros1/bag_recording.h"
+#include "adapters/bags/bag_recording.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/top_view_file.h"
 #include "tagfield/base/file_kind.h"

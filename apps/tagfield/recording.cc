@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "adapters/archive/unpacked_archive.h"
-#include "adapters/ros1/bag_recording.h"
+#include "adapters/bags/bag_recording.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
 #include "tagfield/base/file_kind.h"

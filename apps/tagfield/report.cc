@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "adapters/bags/bag_recording.h"
 #include "adapters/http/run_json.h"
-#include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/json_line.h"

@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-#include "adapters/ros1/bag_recording.h"
+#include "adapters/bags/bag_recording.h"
 #include "tagfield/base/error.h"
 #include "tagfield/calibration/calibration.h"
 #include "tagfield/experiment/in_parts.h"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "adapters/archive/unpacked_archive.h"
-#include "adapters/ros1/bag_recording.h"
+#include "adapters/bags/bag_recording.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/recording.h"

@@ -5,9 +5,9 @@
 #include <memory>
 #include <thread>
 
+#include "adapters/bags/bag_recording.h"
 #include "adapters/http/http_server.h"
 #include "adapters/http/run_json.h"
-#include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/json_line.h"

@@ -29,6 +29,7 @@ ROS = ("ros/", "rclcpp/", "rosbag/", "tf2", "tf/", "tagfield_msgs/", "rfid_senso
 GAZEBO = ("gazebo/", "gz/", "ignition/")
 ALIENS = (*ROS, *GAZEBO, "mrpt/", "mpi.h")
 ROS1 = "adapters/ros1/"
+BAGS = "adapters/bags/"
 ROS2 = "adapters/ros2/"
 CLASSIC = "adapters/gazebo_classic/"
 MCAP = "adapters/mcap/"
@@ -106,6 +107,8 @@ def adapter_fault(path, header):
     """Why an adapter must not include `header`, of the project or a third party, or None."""
     if path.startswith(ROS1) and header.startswith((CLASSIC, *GAZEBO)):
         return "adapters/ros1/ knows no Gazebo"
+    if path.startswith(BAGS) and header.startswith((CLASSIC, ROS1, *GAZEBO)):
+        return "adapters/bags/ knows neither Gazebo nor a running ROS"
     if path.startswith(ROS2) and header.startswith((CLASSIC, ROS1, *GAZEBO)):
         return "adapters/ros2/ knows neither Gazebo nor ROS 1"
     if (path.startswith(CLASSIC) and not path.startswith(JOINTS) and not is_test(path) and
@@ -333,9 +336,9 @@ GOOD = {
                                  "auto now = std::chrono::steady_clock::now();\n",
     "tagfield/experiment/bench/run_bench.cc": '#include "tagfield/simulator/run.h"\n'
                                               '#include "tagfield/stream/truth.h"\n',
-    "apps/tagfield/main.cc": '#include "tagfield/simulator/run.h"\n#include "adapters/ros1/bag.h"\n'
+    "apps/tagfield/main.cc": '#include "tagfield/simulator/run.h"\n#include "adapters/bags/bag.h"\n'
                              'int main() { printf("x"); }\n',
-    "adapters/ros1/bag.cc": '#include <rosbag/bag.h>\n#include <tagfield_msgs/TagReads.h>\n'
+    "adapters/bags/bag.cc": '#include <rosbag/bag.h>\n#include <tagfield_msgs/TagReads.h>\n'
                             '#include "tagfield/stream/truth.h"\n',
     "adapters/gazebo_classic/field.cc": '#include <gazebo/gazebo.hh>\n#include <sdf/sdf.hh>\n'
                                         '#include "tagfield/base/error.h"\n',
@@ -355,7 +358,7 @@ PLANTED = (  # a file, its content, part of the expected message
     ("tagfield/simulator/a.cc", '#include "tagfield/experiment/bench/bench.h"\n',
      "experiment/ is below simulator/"),
     ("tagfield/files/a.cc", '#include "apps/tagfield/table.h"\n', "a room must not include it"),
-    ("tagfield/simulator/a.cc", '#include "adapters/ros1/bag.h"\n', "a room must not include it"),
+    ("tagfield/simulator/a.cc", '#include "adapters/bags/bag.h"\n', "a room must not include it"),
     ("adapters/ros1/a.cc", '#include "tagfield/experiment/bench/bench.h"\n',
      "adapters/ must not know experiment/"),
     ("tagfield/localization/a.cc", '#include "tagfield/world/scene.h"\n',
@@ -377,6 +380,7 @@ PLANTED = (  # a file, its content, part of the expected message
     ("apps/tagfield/a.cc", "#include <gazebo/gazebo.hh>\n", "no ROS"),
     ("adapters/ros1/a.cc", '#include "adapters/gazebo_classic/field.h"\n', "knows no Gazebo"),
     ("adapters/ros1/a.cc", "#include <gazebo/gazebo.hh>\n", "knows no Gazebo"),
+    ("adapters/bags/a.cc", '#include "adapters/ros1/ros_link.h"\n', "neither Gazebo nor a running ROS"),
     ("adapters/ros2/a.cc", '#include "adapters/ros1/ros_link.h"\n', "neither Gazebo nor ROS 1"),
     ("adapters/gazebo_classic/a.cc", '#include "adapters/ros1/link.h"\n', "only plugins/"),
     ("adapters/gazebo_world/a.cc", "#include <ros/ros.h>\n", "neither Gazebo nor ROS"),
@@ -385,7 +389,7 @@ PLANTED = (  # a file, its content, part of the expected message
      "neither Gazebo 11 nor ROS 1"),
     ("adapters/gz/a.cc", '#include "adapters/ros2/dds_sink.h"\n', "only rfid_system.cc"),
     ("adapters/mcap/a.cc", '#include "tagfield/stream/truth.h"\n', "knows neither RFID nor ROS"),
-    ("adapters/mcap/a.cc", '#include "adapters/ros1/bag.h"\n', "knows neither RFID nor ROS"),
+    ("adapters/mcap/a.cc", '#include "adapters/bags/bag.h"\n', "knows neither RFID nor ROS"),
     ("adapters/mcap/a.cc", "#include <rosbag/bag.h>\n", "knows neither RFID nor ROS"),
     ("adapters/mqtt/a.cc", '#include "adapters/ros2/cdr.h"\n', "know neither Gazebo nor ROS"),
     ("adapters/epcis/a.cc", "#include <ros/ros.h>\n", "know neither Gazebo nor ROS"),

@@ -35,7 +35,7 @@ MOST_SOURCES = 48  # maximum per unit; more need over a gigabyte of memory
 PLANTED = "int f(int a) { int b; if (a) b = a; return b; }\n"
 COMPLAINT = "planted.cc:1:20: error: variable 'b' is not initialized"
 # Stubs that define the same names as other sources, for builds without those.
-STAND_INS = ("adapters/ros1/bag_refusal.cc",)
+STAND_INS = ("adapters/bags/bag_refusal.cc",)
 # Skips the parsing of unused templates, which are most of those in library headers.
 READ_LESS = "-fdelayed-template-parsing"
 FAILS_TO_COMPILE = "[clang-diagnostic-error]"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/bag_messages.h"
+#include "adapters/bags/bag_messages.h"
 
 #include <utility>
 
-#include "adapters/ros1/message_fields.h"
+#include "adapters/bags/message_fields.h"
 
 namespace tagfield::recorded {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "adapters/ros1/bag_content.h"
-#include "adapters/ros1/message_fields.h"
+#include "adapters/bags/bag_content.h"
+#include "adapters/bags/message_fields.h"
 
 namespace tagfield::recorded {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "adapters/ros1/bag_recording.h"
+#include "adapters/bags/bag_recording.h"
 #include "adapters/rosbag2/recording_files.h"
 
 namespace tagfield {

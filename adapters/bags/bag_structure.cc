@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/bag_structure.h"
+#include "adapters/bags/bag_structure.h"
 
 #include <bzlib.h>
 #include <fmt/format.h>

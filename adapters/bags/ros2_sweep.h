@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/ros1/bag_content.h"
+#include "adapters/bags/bag_content.h"
 #include "adapters/rosbag2/recorded_file.h"
 #include "tagfield/base/error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/bag_transforms.h"
+#include "adapters/bags/bag_transforms.h"
 
 #include <algorithm>
 #include <chrono>

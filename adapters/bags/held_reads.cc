@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/held_reads.h"
+#include "adapters/bags/held_reads.h"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 
 #include <rfid_sensor/TagArray.h>
 
-#include "adapters/ros1/bag_content.h"
-#include "adapters/ros1/message_location.h"
+#include "adapters/bags/bag_content.h"
+#include "adapters/bags/message_location.h"
 #include "tagfield/base/error.h"
 
 namespace tagfield::recorded {

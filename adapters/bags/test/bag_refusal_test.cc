@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "adapters/ros1/bag_recording.h"
-#include "adapters/ros1/bag_structure.h"
+#include "adapters/bags/bag_recording.h"
+#include "adapters/bags/bag_structure.h"
 #include "tagfield/base/test/error_text.h"
 
 namespace tagfield {

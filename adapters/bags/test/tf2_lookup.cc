@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/test/tf2_lookup.h"
+#include "adapters/bags/test/tf2_lookup.h"
 
 #include <tf2/buffer_core.h>
 #include <tf2/exceptions.h>

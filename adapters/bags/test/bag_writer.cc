@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/test/bag_writer.h"
+#include "adapters/bags/test/bag_writer.h"
 
 #include <nav_msgs/Odometry.h>
 #include <rfid_sensor/TagArray.h>

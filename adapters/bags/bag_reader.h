@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "adapters/ros1/bag_recording.h"
+#include "adapters/bags/bag_recording.h"
 
 extern "C" {
 

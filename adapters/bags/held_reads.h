@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "adapters/ros1/bag_content.h"
-#include "adapters/ros1/bag_recording.h"
+#include "adapters/bags/bag_content.h"
+#include "adapters/bags/bag_recording.h"
 #include "tagfield/files/units_seen.h"
 
 namespace tagfield {

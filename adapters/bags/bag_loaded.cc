@@ -2,7 +2,7 @@
 // Replaces bag_recording.cc in programs that load the bag reader at run time.
 #include <filesystem>
 
-#include "adapters/ros1/bag_reader.h"
+#include "adapters/bags/bag_reader.h"
 #include "tagfield/base/loaded_library.h"
 
 namespace tagfield {

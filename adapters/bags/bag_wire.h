@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "adapters/ros1/message_location.h"
+#include "adapters/bags/message_location.h"
 
 namespace tagfield {
 

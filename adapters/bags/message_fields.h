@@ -13,8 +13,8 @@
 #include <cstdint>
 #include <string>
 
-#include "adapters/ros1/bag_content.h"
-#include "adapters/ros1/message_location.h"
+#include "adapters/bags/bag_content.h"
+#include "adapters/bags/message_location.h"
 #include "tagfield/base/error.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/poses/rigid_transform.h"

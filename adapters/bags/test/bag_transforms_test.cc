@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/bag_transforms.h"
+#include "adapters/bags/bag_transforms.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-#include "adapters/ros1/test/tf2_lookup.h"
+#include "adapters/bags/test/tf2_lookup.h"
 
 namespace tagfield {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/message_fields.h"
+#include "adapters/bags/message_fields.h"
 
 #include <map>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replaces bag_structure.cc and bag_sweep.cc in builds without ROS 1.
-#include "adapters/ros1/bag_structure.h"
-#include "adapters/ros1/bag_sweep.h"
+#include "adapters/bags/bag_structure.h"
+#include "adapters/bags/bag_sweep.h"
 
 namespace tagfield {
 

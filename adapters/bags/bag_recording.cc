@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/bag_recording.h"
+#include "adapters/bags/bag_recording.h"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,12 @@
 #include <string_view>
 #include <utility>
 
-#include "adapters/ros1/bag_content.h"
-#include "adapters/ros1/bag_structure.h"
-#include "adapters/ros1/bag_sweep.h"
-#include "adapters/ros1/bag_transforms.h"
-#include "adapters/ros1/held_reads.h"
-#include "adapters/ros1/ros2_sweep.h"
+#include "adapters/bags/bag_content.h"
+#include "adapters/bags/bag_structure.h"
+#include "adapters/bags/bag_sweep.h"
+#include "adapters/bags/bag_transforms.h"
+#include "adapters/bags/held_reads.h"
+#include "adapters/bags/ros2_sweep.h"
 #include "adapters/rosbag2/recording_files.h"
 
 namespace tagfield {

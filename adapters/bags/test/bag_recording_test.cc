@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/bag_recording.h"
+#include "adapters/bags/bag_recording.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <map>
 
-#include "adapters/ros1/test/bag_writer.h"
+#include "adapters/bags/test/bag_writer.h"
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/base/units.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/bag_wire.h"
+#include "adapters/bags/bag_wire.h"
 
 #include <fmt/format.h>
 #include <nav_msgs/Odometry.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/message_location.h"
+#include "adapters/bags/message_location.h"
 
 #include <fmt/format.h>
 

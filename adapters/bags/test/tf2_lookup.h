@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/ros1/bag_content.h"
+#include "adapters/bags/bag_content.h"
 
 namespace tagfield {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/bag_sweep.h"
+#include "adapters/bags/bag_sweep.h"
 
 #include <fmt/format.h>
 #include <nav_msgs/Odometry.h>
@@ -14,10 +14,10 @@
 #include <set>
 #include <vector>
 
-#include "adapters/ros1/bag_messages.h"
-#include "adapters/ros1/bag_wire.h"
-#include "adapters/ros1/message_content.h"
-#include "adapters/ros1/silence.h"
+#include "adapters/bags/bag_messages.h"
+#include "adapters/bags/bag_wire.h"
+#include "adapters/bags/message_content.h"
+#include "adapters/bags/silence.h"
 
 namespace tagfield {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "adapters/ros1/bag_content.h"
+#include "adapters/bags/bag_content.h"
 #include "tagfield/base/error.h"
 
 namespace tagfield {

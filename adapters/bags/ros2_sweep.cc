@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros1/ros2_sweep.h"
+#include "adapters/bags/ros2_sweep.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "adapters/ros1/message_content.h"
+#include "adapters/bags/message_content.h"
 #include "adapters/ros2/ros2_messages.h"
 #include "adapters/rosbag2/recording_files.h"
 
