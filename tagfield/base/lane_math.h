@@ -96,6 +96,23 @@ inline double cosine_series(double z) {
   return c * z + 1.0 / 24.0;
 }
 
+/// (t − arctan t)/t³ for |t| ≤ √5 − 2, with z = t²: Taylor series, whose truncation error in
+/// arctan t is below 2⁻⁵⁸.
+inline double arc_tangent_series(double z) {
+  double s = 1.0 / 25.0;
+  s = 1.0 / 23.0 - s * z;
+  s = 1.0 / 21.0 - s * z;
+  s = 1.0 / 19.0 - s * z;
+  s = 1.0 / 17.0 - s * z;
+  s = 1.0 / 15.0 - s * z;
+  s = 1.0 / 13.0 - s * z;
+  s = 1.0 / 11.0 - s * z;
+  s = 1.0 / 9.0 - s * z;
+  s = 1.0 / 7.0 - s * z;
+  s = 1.0 / 5.0 - s * z;
+  return 1.0 / 3.0 - s * z;
+}
+
 }  // namespace lane_internal
 
 /// The double nearest to an unsigned 64-bit integer, as a conversion yields it.
@@ -209,6 +226,30 @@ inline SineCosine lane_sine_cosine(double x) {
   const std::uint64_t swap = (bits_of(sine) ^ bits_of(cosine)) & is_odd;
   return {double_of_bits((bits_of(sine) ^ swap) ^ ((quarter & 2U) << 62U)),
           double_of_bits((bits_of(cosine) ^ swap) ^ (((quarter + 1U) & 2U) << 62U))};
+}
+
+/// The angle [rad] of the vector (x, y), in [−π, π], like std::atan2(y, x), within 4 units in the
+/// last place; for |x|, |y| ≤ 10³⁰⁰.
+inline double lane_arc_tangent(double y, double x) {
+  constexpr std::uint64_t kSign = std::uint64_t{1} << 63U;
+  constexpr double kOfHalf = 0x1.dac670561bb4fp-2;  // arctan ½
+  const double along = double_of_bits(bits_of(x) & ~kSign);
+  const double across = double_of_bits(bits_of(y) & ~kSign);
+  const bool is_steep = across > along;
+  const double low = choose(is_steep, along, across);
+  const double high = choose(is_steep, across, along);
+  // arctan(low/high) − arctan c = arctan t with c of 0, ½ and 1, for which products are exact; t is
+  // at most √5 − 2 and, after the second bound, √10 − 3.
+  const bool is_past_first = low > 0.23606797749978969 * high;
+  const bool is_past_second = low > 0.72075922005612644 * high;
+  const double c = choose(is_past_second, 1.0, choose(is_past_first, 0.5, 0.0));
+  const double of_c = choose(is_past_second, 0.25 * kPi, choose(is_past_first, kOfHalf, 0.0));
+  const double t = (low - c * high) / choose(high > 0.0, high + c * low, 1.0);
+  const double z = t * t;
+  const double acute = of_c + (t - t * z * lane_internal::arc_tangent_series(z));
+  const double upright = choose(is_steep, 0.5 * kPi - acute, acute);
+  const double angle = choose((bits_of(x) & kSign) != 0, kPi - upright, upright);
+  return double_of_bits(bits_of(angle) | (bits_of(y) & kSign));
 }
 
 /// Two draws from N(0, 1) out of two words of a stream, as standard_normal_pair() makes them.

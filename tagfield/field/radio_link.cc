@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "tagfield/base/lane_math.h"
 #include "tagfield/base/random.h"
 #include "tagfield/base/units.h"
 
@@ -240,6 +241,58 @@ void add_straight_links(const RadioView& view, std::span<const TagInView> tags,
   }
 }
 
+/// Gains as arrays, to which loops in lanes need no strides.
+struct GainLanes {
+  StraightLinks::Lane re;
+  StraightLinks::Lane im;
+};
+
+void fill(std::span<const RadioLink> links, Complex RadioLink::*gain, GainLanes& gains) {
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    gains.re[i] = (links[i].*gain).real();
+    gains.im[i] = (links[i].*gain).imag();
+  }
+}
+
+/// Subtracts the gains' phases.
+void subtract_phases(const GainLanes& gains, std::size_t count, StraightLinks::Lane& phase_rad) {
+  for (std::size_t i = 0; i < count; ++i) {
+    phase_rad[i] -= lane_arc_tangent(gains.im[i], gains.re[i]);
+  }
+}
+
+/// Subtracts them twice, for an antenna that receives by the paths by which it sends.
+void subtract_phases_twice(const GainLanes& gains, std::size_t count,
+                           StraightLinks::Lane& phase_rad) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double phase = lane_arc_tangent(gains.im[i], gains.re[i]);
+    phase_rad[i] = phase_rad[i] - phase - phase;
+  }
+}
+
+void wrap(std::size_t count, StraightLinks::Lane& phase_rad) {
+  for (std::size_t i = 0; i < count; ++i) phase_rad[i] = lane_wrap_to_two_pi(phase_rad[i]);
+}
+
+/// reply_phases() for up to kStraightLinks links; `phase_rad` begins with the offset.
+void set_phases(bool has_receiver, std::span<const RadioLink> links, InstructionSet set,
+                StraightLinks::Lane& phase_rad) {
+  const std::size_t count = links.size();
+  GainLanes forward;
+  GainLanes backward;
+  fill(links, &RadioLink::forward, forward);
+  if (has_receiver) fill(links, &RadioLink::backward, backward);
+  in_lanes(set, [&] {
+    if (has_receiver) {
+      subtract_phases(forward, count, phase_rad);
+      subtract_phases(backward, count, phase_rad);
+    } else {
+      subtract_phases_twice(forward, count, phase_rad);
+    }
+    wrap(count, phase_rad);
+  });
+}
+
 }  // namespace
 
 RadioView bare_view(const RadioModel& model, const RadioWorld& world, const RigidTransform& X_WA,
@@ -341,6 +394,19 @@ Reply reply_of(const RadioLink& link, double phase_offset_rad, const Vector3d& v
   const double phase = phase_offset_rad - std::arg(link.forward) - std::arg(link.backward);
   // Positive for an approaching antenna: the phase decreases.
   return {phase, link.reply_dbm, -link.phase_slope_W.dot(v_AT_W) / kTwoPi};
+}
+
+void reply_phases(const RadioView& view, std::span<const RadioLink> links, double phase_offset_rad,
+                  std::span<double> phase_rad, InstructionSet set) {
+  // So that lane_wrap_to_two_pi() can wrap the differences.
+  const double offset = wrap_to_two_pi(phase_offset_rad);
+  StraightLinks::Lane phases;
+  for (std::size_t begin = 0; begin < links.size(); begin += kStraightLinks) {
+    const std::size_t count = std::min(kStraightLinks, links.size() - begin);
+    std::fill_n(phases.begin(), count, offset);
+    set_phases(view.model.X_AR.has_value(), links.subspan(begin, count), set, phases);
+    std::copy_n(phases.begin(), count, phase_rad.begin() + static_cast<std::ptrdiff_t>(begin));
+  }
 }
 
 }  // namespace tagfield

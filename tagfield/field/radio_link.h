@@ -160,4 +160,10 @@ inline bool is_heard(const RadioLink& link, const TagModel& tag, const RadioMode
 /// antenna that moves at `v_AT_W` relative to the tag [m/s].
 Reply reply_of(const RadioLink& link, double phase_offset_rad, const Eigen::Vector3d& v_AT_W);
 
+/// The phase of reply_of() for each of the view's links, wrapped to [0, 2π), into `phase_rad` of
+/// the same length, many at a time: equal up to the last digits. Bit-identical whatever else is in
+/// the batch and whatever the instruction set.
+void reply_phases(const RadioView& view, std::span<const RadioLink> links, double phase_offset_rad,
+                  std::span<double> phase_rad, InstructionSet set = instruction_sets().back());
+
 }  // namespace tagfield

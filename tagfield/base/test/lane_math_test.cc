@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -106,6 +107,37 @@ TEST(LaneSineCosine, AreThoseWithinOneUnit) {
   EXPECT_EQ(lane_sine_cosine(0.0).cosine, 1.0);
 }
 
+TEST(LaneArcTangent, IsTheAngleWithinFourUnits) {
+  RandomStream stream(4, Purpose::kReadNoise);
+  double worst = 0.0;
+  const auto see = [&](double y, double x) {
+    const long double exact = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
+    worst = std::max(worst, units_off(lane_arc_tangent(y, x), exact));
+  };
+  for (int i = 0; i < kDraws; ++i) {
+    const double size = std::pow(10.0, any_in(stream, -290.0, 290.0));
+    const double tiny = std::pow(10.0, any_in(stream, -17.0, 0.0));
+    // Everywhere, close to the axes, and on both sides of the bounds of the pieces.
+    const double bound = (i % 2 == 0 ? std::sqrt(5.0) - 2.0 : 0.72075922005612644);
+    for (const double y : {any_in(stream, -1.0, 1.0), tiny, bound - tiny, bound + tiny}) {
+      for (const double x : {any_in(stream, -1.0, 1.0), 1.0, -1.0, y}) {
+        see(size * y, size * x);
+        see(size * x, -size * y);
+      }
+    }
+  }
+  EXPECT_LT(worst, 4.0);
+}
+
+TEST(LaneArcTangent, HasTheStandardsSignsAtZeros) {
+  for (const double y : {0.0, -0.0, 1.0, -1.0}) {
+    for (const double x : {0.0, -0.0, 2.0, -2.0}) {
+      if (std::abs(y) > 0.0 && std::abs(x) > 0.0) continue;
+      EXPECT_EQ(bits_of(lane_arc_tangent(y, x)), bits_of(std::atan2(y, x))) << y << " " << x;
+    }
+  }
+}
+
 RC_GTEST_PROP(LaneDouble, IsTheConversion, ()) {
   const std::uint64_t word = any_word() >> (*rc::gen::inRange(0, 64));
   RC_ASSERT(lane_double(word) == static_cast<double>(word));
@@ -173,18 +205,19 @@ TEST(LaneNormalPair, IsFiniteForTheWordsAtTheEnds) {
 /// All functions applied to the same numbers, one after the other.
 std::vector<double> all_in_lanes(InstructionSet set, const std::vector<std::uint64_t>& words,
                                  std::size_t count) {
-  std::vector<double> found(5 * count);
+  std::vector<double> found(6 * count);
   in_lanes(set, [&] {
     double* const out = found.data();
     const std::uint64_t* const in = words.data();
     for (std::size_t i = 0; i < count; ++i) {
       const NormalPair pair = lane_normal_pair(in[i], in[i + 1]);
-      out[5 * i] = pair.first;
-      out[5 * i + 1] = pair.second;
-      out[5 * i + 2] = lane_round(40.0 * lane_log10(std::abs(pair.first) + 1e-300));
-      out[5 * i + 3] = lane_wrap_to_two_pi(lane_remainder(1e5 * std::abs(pair.second), 0.173));
+      out[6 * i] = pair.first;
+      out[6 * i + 1] = pair.second;
+      out[6 * i + 2] = lane_round(40.0 * lane_log10(std::abs(pair.first) + 1e-300));
+      out[6 * i + 3] = lane_wrap_to_two_pi(lane_remainder(1e5 * std::abs(pair.second), 0.173));
       const auto single = static_cast<float>(std::abs(pair.first) + 1e-30);
-      out[5 * i + 4] = static_cast<double>(lane_log(single));
+      out[6 * i + 4] = static_cast<double>(lane_log(single));
+      out[6 * i + 5] = lane_arc_tangent(pair.first, pair.second);
     }
   });
   return found;

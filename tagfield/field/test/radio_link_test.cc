@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -397,6 +398,38 @@ TEST(StraightLinksOf, AreThoseOfATagOfThePopulation) {
     const RadioLink link = link_of(view, {tags.model(i), tags.pose(i), tags.key(i)}, paths);
     EXPECT_EQ(links[i].forward, link.forward);
     EXPECT_EQ(links[i].reply_dbm, link.reply_dbm);
+  }
+}
+
+TEST(ReplyPhases, AreThoseOfTheRepliesInEveryInstructionSet) {
+  const RadioWorld world = empty_world();
+  const TagModel even = tag(1.0, -15.0);
+  const std::vector<TagEnd> tags = tags_on_a_spiral(even, even);
+  for (const bool has_receiver : {false, true}) {
+    RadioModel model = antenna(33.0, 865.7e6);
+    if (has_receiver) model.X_AR = from_translation({0.0, 0.4, 0.1});
+    const RadioView view =
+        view_from(model, world, from_translation({0.2, 0.1, 1.5}), 865.7e6, 0, 1);
+    std::vector<RadioPath> paths;
+    std::vector<RadioLink> links(tags.size());
+    links_of(view, tags, paths, links);
+    links.push_back({});  // Nothing arrives.
+    for (const double offset : {0.0, 6.283, -17.0, 12345.0}) {
+      std::vector<double> phases(links.size());
+      reply_phases(view, links, offset, phases, InstructionSet::kBaseline);
+      for (std::size_t i = 0; i < links.size(); ++i) {
+        const double alone = reply_of(links[i], offset, Vector3d::Zero()).phase_rad;
+        EXPECT_TRUE(0.0 <= phases[i] && phases[i] < kTwoPi) << phases[i];
+        EXPECT_NEAR(wrap_to_pi(phases[i] - alone), 0.0, 3e-15 + 1e-15 * std::abs(offset)) << i;
+      }
+      for (const InstructionSet set : instruction_sets()) {
+        for (const std::size_t count : {1U, 7U, 65U, 301U}) {
+          std::vector<double> some(count);
+          reply_phases(view, {links.data(), count}, offset, some, set);
+          EXPECT_TRUE(std::equal(some.begin(), some.end(), phases.begin()));
+        }
+      }
+    }
   }
 }
 
