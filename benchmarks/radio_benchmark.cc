@@ -302,6 +302,12 @@ RadioModel circular_patch() {
   return model;
 }
 
+RadioModel circular_patch_with_occlusion() {
+  RadioModel model = circular_patch();
+  model.effects.occlusion = true;
+  return model;
+}
+
 RadioModel without_any_effect() {
   RadioModel model = strong_model();
   model.effects = no_effects();
@@ -387,6 +393,7 @@ BENCHMARK_CAPTURE(straight_links, all_effects_but_occlusion, in_free_space());
 BENCHMARK_CAPTURE(straight_links, circular_patch, circular_patch());
 BENCHMARK_CAPTURE(straight_links, no_effect, without_any_effect());
 BENCHMARK_CAPTURE(link_budget, circular_patch, circular_patch());
+BENCHMARK_CAPTURE(link_budget, circular_patch_with_occlusion, circular_patch_with_occlusion());
 BENCHMARK_CAPTURE(link_budget, all_effects, strong_model());
 BENCHMARK(aws)
     ->ArgNames({"order", "tags"})

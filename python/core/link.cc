@@ -3,12 +3,16 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
 
 #include "apps/tagfield/scenario_arguments.h"
 #include "python/core/arrays.h"
 #include "python/core/loaded.h"
+#include "tagfield/base/lane_math.h"
+#include "tagfield/base/lanes.h"
 #include "tagfield/base/random.h"
-#include "tagfield/base/units.h"
 #include "tagfield/channel/paper_model.h"
 #include "tagfield/channel/paper_signals.h"
 #include "tagfield/channel/radio_world.h"
@@ -19,12 +23,40 @@
 namespace tagfield::python {
 namespace {
 
+/// Without a branch for each number: all bits of the exponent are set where one is not finite, and
+/// one more carries into the sign.
+void require_finite(std::span<const Eigen::Vector3d> places) {
+  constexpr std::uint64_t kExponent = 0x7ff0000000000000U;
+  constexpr std::uint64_t kOne = 0x0010000000000000U;
+  const std::span<const double> coordinates(places.front().data(), 3 * places.size());
+  std::uint64_t carried = 0;
+  for (const double x : coordinates) carried |= (bits_of(x) & kExponent) + kOne;
+  if (carried >> 63U != 0) throw Error("link: a position must be three finite numbers [m]");
+}
+
 /// One antenna at one place, and the links to tags anywhere. Without noise.
 class AntennaLinks {
  public:
   virtual ~AntennaLinks() = default;
-  /// Into rows of the same length.
-  virtual void links(std::span<const Eigen::Vector3d> places, std::span<LinkRow> rows) = 0;
+
+  /// Into rows of the same length. Throws Error if a place is not finite.
+  void links(std::span<const Eigen::Vector3d> places, std::span<LinkRow> rows) {
+    for (std::size_t begin = 0; begin < places.size(); begin += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, places.size() - begin);
+      const std::span<LinkRow> some = rows.subspan(begin, count);
+      require_finite(places.subspan(begin, count));
+      std::memset(some.data(), 0, some.size_bytes());  // The gaps after `readable` are saved, too.
+      some_links(places.subspan(begin, count), some);
+    }
+  }
+
+ protected:
+  /// So few that all that is between places and rows stays in the L1 cache.
+  static constexpr std::size_t kAtOnce = kStraightLinks;
+
+ private:
+  /// At most kAtOnce.
+  virtual void some_links(std::span<const Eigen::Vector3d> places, std::span<LinkRow> rows) = 0;
 };
 
 class PaperLinksFrom final : public AntennaLinks {
@@ -35,16 +67,15 @@ class PaperLinksFrom final : public AntennaLinks {
     antenna_.model.rssi_noise = 0.0;
   }
 
-  void links(std::span<const Eigen::Vector3d> places, std::span<LinkRow> rows) override {
+ private:
+  void some_links(std::span<const Eigen::Vector3d> places, std::span<LinkRow> rows) override {
     const std::size_t count = places.size();
-    distance_m_.resize(count);
-    words_.resize(count);
-    phase_rad_.resize(count);
-    rssi_dbm_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       distance_m_[i] = link_between(p_WA_, places[i]).distance_m;
     }
-    paper_signals(antenna_.model, {distance_m_, words_, words_, {}}, phase_rad_, rssi_dbm_);
+    const std::span<const std::uint64_t> words(words_.data(), count);
+    paper_signals(antenna_.model, {{distance_m_.data(), count}, words, words, {}},
+                  {phase_rad_.data(), count}, {rssi_dbm_.data(), count});
     for (std::size_t i = 0; i < count; ++i) {
       const bool readable =
           distance_m_[i] <= antenna_.range_m &&
@@ -53,11 +84,10 @@ class PaperLinksFrom final : public AntennaLinks {
     }
   }
 
- private:
   PaperAntenna antenna_;
   Eigen::Vector3d p_WA_;
-  std::vector<double> distance_m_, phase_rad_, rssi_dbm_;
-  std::vector<std::uint64_t> words_;
+  std::array<double, kAtOnce> distance_m_{}, phase_rad_{}, rssi_dbm_{};
+  std::array<std::uint64_t, kAtOnce> words_{};  ///< Any, as there is no noise.
 };
 
 class PhysicalLinksFrom final : public AntennaLinks {
@@ -71,38 +101,47 @@ class PhysicalLinksFrom final : public AntennaLinks {
         carrier_(carrier_at(model_, port_, time)),
         view_(view_from(model_, *loaded->parts.scenario.radio_world, X_WA, carrier_.frequency_hz,
                         port_.antenna_key, port_.seed)),
+        is_empty_(is_empty_space(view_)),
         p_WA_(X_WA.translation),
         R_WT_(R_WT),
         key_(stream_key(tag.id)) {}
 
-  void links(std::span<const Eigen::Vector3d> places, std::span<LinkRow> rows) override {
-    if (places.size() == 1) {
-      rows[0] = row_of(places[0], link_of(view_, end_at(places[0]), paths_));
-      return;
-    }
-    for (std::size_t begin = 0; begin < places.size(); begin += kAtOnce) {
-      const std::size_t count = std::min(kAtOnce, places.size() - begin);
-      some_links(places.subspan(begin, count), rows.subspan(begin, count));
-    }
-  }
-
  private:
-  static constexpr std::size_t kAtOnce = 512;  ///< So few that they stay in the cache.
-
-  void some_links(std::span<const Eigen::Vector3d> places, std::span<LinkRow> rows) {
-    ends_.clear();
-    for (const Eigen::Vector3d& place : places) ends_.push_back(end_at(place));
-    links_.resize(places.size());
-    links_of(view_, ends_, paths_, links_);
-    for (std::size_t i = 0; i < places.size(); ++i) rows[i] = row_of(places[i], links_[i]);
+  /// One row is computed the same way as many, so that it equals that of a batch.
+  void some_links(std::span<const Eigen::Vector3d> places, std::span<LinkRow> rows) override {
+    const std::span<RadioLink> links(links_.data(), places.size());
+    if (is_empty_) {
+      add_straight(links, places);
+    } else {
+      add_traced(links, places);
+    }
+    reply_phases(view_, links, carrier_.phase_offset_rad, {phase_rad_.data(), places.size()});
+    in_lanes(instruction_sets().back(), [&] { set_distances(places); });
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      rows[i] = {distance_m_[i], links[i].tag_dbm, links[i].reply_dbm, phase_rad_[i],
+                 is_heard(links[i], *tag_, model_)};
+    }
   }
-  [[nodiscard]] TagEnd end_at(const Eigen::Vector3d& p_WT) const {
-    return {*tag_, {R_WT_, p_WT}, key_};
+  void set_distances(std::span<const Eigen::Vector3d> places) {
+    const double from_x = p_WA_.x();
+    const double from_y = p_WA_.y();
+    const double from_z = p_WA_.z();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double x = places[i].x() - from_x;
+      const double y = places[i].y() - from_y;
+      const double z = places[i].z() - from_z;
+      distance_m_[i] = std::sqrt(x * x + (y * y + z * z));
+    }
   }
-  [[nodiscard]] LinkRow row_of(const Eigen::Vector3d& p_WT, const RadioLink& link) const {
-    const Reply reply = reply_of(link, carrier_.phase_offset_rad, Eigen::Vector3d::Zero());
-    return {(p_WT - p_WA_).norm(), link.tag_dbm, link.reply_dbm, wrap_to_two_pi(reply.phase_rad),
-            is_heard(link, *tag_, model_)};
+  void add_straight(std::span<RadioLink> links, std::span<const Eigen::Vector3d> places) const {
+    std::array<TagInView, kAtOnce> tags;
+    for (std::size_t i = 0; i < places.size(); ++i) tags[i] = {tag_.get(), {&R_WT_, &places[i]}};
+    straight_links_of(view_, {tags.data(), places.size()}, links);
+  }
+  void add_traced(std::span<RadioLink> links, std::span<const Eigen::Vector3d> places) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      links[i] = link_of(view_, {*tag_, {R_WT_, places[i]}, key_}, paths_);
+    }
   }
 
   LoadedPtr loaded_;
@@ -111,9 +150,10 @@ class PhysicalLinksFrom final : public AntennaLinks {
   RadioPort port_;
   CarrierNow carrier_;
   RadioView view_;
+  bool is_empty_;
   std::vector<RadioPath> paths_;
-  std::vector<TagEnd> ends_;
-  std::vector<RadioLink> links_;
+  std::array<RadioLink, kAtOnce> links_{};
+  std::array<double, kAtOnce> distance_m_{}, phase_rad_{};
   Eigen::Vector3d p_WA_;
   Eigen::Quaterniond R_WT_;
   std::uint64_t key_;
@@ -137,13 +177,8 @@ std::unique_ptr<AntennaLinks> links_from(const LoadedPtr& loaded, const std::str
   return std::make_unique<PhysicalLinksFrom>(loaded, from, to, X_WA, R_WT, time);
 }
 
-void require_finite(const Eigen::Vector3d& place) {
-  if (!place.allFinite()) throw Error("link: a position must be three finite numbers [m]");
-}
-
 LinkRow one_link(AntennaLinks& self, double x_m, double y_m, double z_m) {
   const Eigen::Vector3d place(x_m, y_m, z_m);
-  require_finite(place);
   LinkRow row{};
   self.links({&place, 1}, {&row, 1});
   return row;
@@ -159,13 +194,13 @@ py::object batch(AntennaLinks& self, const PlacesArray& positions_m) {
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
   const std::span<const Eigen::Vector3d> places(
       reinterpret_cast<const Eigen::Vector3d*>(positions_m.data()), count);
-  std::vector<LinkRow> rows(count);
+  Rows<LinkRow> rows(positions_m.shape(0));  // NumPy's own memory, without a pass to clear it.
+  const std::span<LinkRow> all(rows.mutable_data(), count);
   {
     const py::gil_scoped_release unlocked;
-    for (const Eigen::Vector3d& place : places) require_finite(place);
-    self.links(places, rows);
+    self.links(places, all);
   }
-  return table(std::move(rows), {});
+  return as_table(rows, {});
 }
 
 }  // namespace
@@ -190,8 +225,9 @@ void bind_links(py::module_& module) {
       .def("__call__", &one_link, py::arg("x_m"), py::arg("y_m"), py::arg("z_m"),
            "The link to a tag at x, y, z [m, world], as a LinkState.")
       .def("batch", &batch, py::arg("positions_m"),
-           "Links to tags at positions_m (N, 3) [m, world], as a table of N rows: distance_m,\n"
-           "tag_dbm, reply_dbm, phase_rad, readable.");
+           "Links to tags at positions_m (N, 3) [m, world], as a table of N rows:\n"
+           "distance_m [m], tag_dbm and reply_dbm [dBm], phase_rad in [0, 2π) [rad], readable.\n"
+           "A row equals link() of its position to the last bit.");
   module.def("link", &links_from, py::arg("loaded"), py::arg("antenna"), py::arg("tag"),
              py::arg("time_s"), py::arg("tag_rpy_rad"));
 }

@@ -75,19 +75,63 @@ def test_free_space_falls_by_the_square():
     assert near.readable and not link(200, 0, 1).readable
 
 
-def test_batch_is_the_same_as_one_by_one():
-    for scenario in (portal(), portal(model="paper", antennas=[{"name": "gate", "pose": [0, 0, 1], "range_m": 3}])):
-        link = scenario.link()
-        places = np.random.default_rng(1).uniform([0.5, -2, 0.5], [4, 2, 1.5], (50, 3))
-        rows = link.batch(places)
-        for place, row in zip(places, rows):
-            one = link(*place)
-            assert (one.distance_m, one.reply_dbm, one.phase_rad, one.readable) == (
-                row["distance_m"], row["reply_dbm"], row["phase_rad"], row["readable"])
+PAPER = {"model": "paper", "antennas": [{"name": "gate", "pose": [0, 0, 1], "range_m": 3}]}
+SEPARATE = {"without": ["occlusion"],
+            "antennas": [{"name": "gate", "pose": [0, 0, 1], "receive_pose": [0, 0.4, 0.1]}]}
+
+
+@pytest.mark.parametrize("keys", [{}, {"without": ["occlusion"]}, SEPARATE, PAPER])
+@pytest.mark.parametrize("count", [0, 1, 50, 64, 65, 1000])
+def test_batch_is_the_same_as_one_by_one(keys, count):
+    link = portal(**keys).link()
+    places = np.random.default_rng(1).uniform([0.5, -2, 0.5], [4, 2, 1.5], (count, 3))
+    rows = link.batch(places)
+    assert rows.dtype.names == ("distance_m", "tag_dbm", "reply_dbm", "phase_rad", "readable")
+    assert len(rows) == count
+    for place, row in zip(places, rows):
+        one = link(*place)
+        np.testing.assert_equal([getattr(one, name) for name in rows.dtype.names], list(row))
+        assert 0 <= one.phase_rad < 2 * math.pi
+
+
+def test_batch_has_the_same_bytes_again():
+    link = portal(without=["occlusion"]).link()
+    places = np.random.default_rng(1).uniform([0.5, -2, 0.5], [4, 2, 1.5], (100, 3))
+    rows = link.batch(places).tobytes()
+    for _ in range(20):
+        dirty = np.full(len(rows), 0xFF, np.uint8)
+        del dirty  # NumPy is likely to use its memory again.
+        assert link.batch(places).tobytes() == rows
+
+
+def test_batch_takes_finite_positions_only():
+    link = portal(without=["occlusion"]).link()
     with pytest.raises(tagfield.Error, match=r"\(N, 3\)"):
         link.batch(np.zeros(3))
     with pytest.raises(tagfield.Error, match="finite"):
         link(math.nan, 0, 0)
+    for odd in (math.nan, -math.nan, math.inf, -math.inf):
+        for at in (0, 100, 299):
+            places = np.full(300, 1.7e308)
+            places[at] = odd
+            with pytest.raises(tagfield.Error, match="finite"):
+                link.batch(places.reshape(100, 3))
+
+
+def test_batch_obeys_the_laws_of_free_space():
+    # Along one ray only the distance changes: there and back are two distances.
+    frequency_hz = 866.3e6
+    gate = {"name": "gate", "pose": [0, 0, 1], "frequency_hz": frequency_hz}
+    link = portal(without=["occlusion", "phase_offsets"], antennas=[gate]).link()
+    distance_m = np.linspace(0.5, 9, 300)
+    ray = np.array([0.9, 0.3, math.sqrt(0.1)])
+    rows = link.batch([0, 0, 1] + distance_m[:, None] * ray)
+    np.testing.assert_allclose(rows["distance_m"], distance_m, rtol=1e-14)
+    turns = 2 * (distance_m - distance_m[0]) * frequency_hz / 299_792_458
+    assert np.abs(np.exp(1j * (rows["phase_rad"] - rows["phase_rad"][0])) - np.exp(2j * math.pi * turns)).max() < 1e-11
+    lost_db = 20 * np.log10(distance_m / distance_m[0])
+    np.testing.assert_allclose(rows["tag_dbm"][0] - rows["tag_dbm"], lost_db, atol=1e-10)
+    np.testing.assert_allclose(rows["reply_dbm"][0] - rows["reply_dbm"], 2 * lost_db, atol=1e-10)
 
 
 def test_world_in_python_is_in_the_way():
