@@ -31,6 +31,7 @@
 #include "tagfield/localization/phase_curves/maximum_likelihood.h"
 #include "tagfield/localization/phase_groups.h"
 #include "tagfield/localization/plausibility.h"
+#include "tagfield/localization/pose_jumps.h"
 #include "tagfield/localization/scan/scan.h"
 #include "tagfield/localization/signal_strength/landmarc.h"
 #include "tagfield/localization/signal_strength/trilateration.h"
@@ -128,6 +129,7 @@ LocalizationResult held_against(const LocalizationProblem& problem, Localization
   if (problem.has_phases) refuse_departures(problem, threads, result, diagnostics);
   add_map_error(problem, result);
   add_drift(problem, result);
+  add_pose_jumps(problem, result);
   keep_on_height_side(problem, result);
   keep_within_area(problem, result.estimates);
   return result;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/localization/method.h"
 #include "tagfield/localization/problem.h"
 
 namespace tagfield {
@@ -20,14 +21,40 @@ struct PoseJump {
 
 /// The jumps of a trajectory that is sorted by time. The motion before and after a step (the mean
 /// of its neighbours' velocities) predicts it. A jump is off by over 3 cm, a tenth of a wavelength;
-/// by over one and a half times what the antenna drives meanwhile at its usual highest speed (95 %
-/// of its steps are slower), which no stop, start or turn explains; and by over three times what 95
-/// % of the steps are off by, which normal noise of the poses exceeds in one step of 10¹¹.
+/// by more than driving explains: one and a half times what the antenna drives meanwhile at its
+/// usual highest speed (95 % of its steps are slower), or what one sudden change of its velocity
+/// and half of g can do in so short a time; and by over three times what 95 % of the steps are off
+/// by, which normal noise of the poses exceeds in one step of 10¹¹.
 std::vector<PoseJump> pose_jumps(const Trajectory& X_WA);
 
+/// Antennas of one body, whose poses jump together.
+struct JumpingBody {
+  std::vector<std::string> antennas;
+  std::vector<PoseJump> jumps;  ///< In order of time, apart from each other.
+};
+
+/// The bodies whose poses jump. A jump of any of its antennas is one of the body, with the size of
+/// the largest.
+std::vector<JumpingBody> jumping_bodies(const LocalizationProblem& problem);
+
+/// Leaves of each tag's reads by a body's antennas those between two jumps, where most of them are,
+/// and none amid a jump. Jumps with reads on one side only have no other effect, and are removed
+/// from `bodies`.
+///
+/// Returns by tag the standard deviation [m] of its position due to jumps of the mean square J²,
+/// √(min(1, 2 (1 − w)) J²), with the share w of all reads on the tag's side. Nothing shows which
+/// side is right: where half of the reads are elsewhere, a tag may be off by a whole jump; the
+/// fewer are, as before a robot has found its place, the less likely the frame is theirs.
+std::map<std::string, double> keep_one_side(std::vector<JumpingBody>& bodies,
+                                            SamplesByTag& samples);
+
+/// Adds LocalizationProblem::pose_jump_m to each position, alike in both directions.
+void add_pose_jumps(const LocalizationProblem& problem, LocalizationResult& result);
+
 /// Warns of jumps: how many, and when, where and how large the largest one is. Antennas of a robot
-/// jump together, so only those of the antenna with most of them are reported.
+/// jump together, so only those of the antenna or body with most of them are reported.
 void warn_of_pose_jumps(const std::map<std::string, BelievedTrack>& tracks,
                         Diagnostics& diagnostics);
+void warn_of_pose_jumps(const std::vector<JumpingBody>& bodies, Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -153,6 +153,12 @@ bool are_radians(const SamplesByTag& samples, Diagnostics& diagnostics) {
   return false;
 }
 
+void leave_one_side_of_jumps(LocalizationProblem& problem, Diagnostics& diagnostics) {
+  std::vector<JumpingBody> bodies = jumping_bodies(problem);
+  problem.pose_jump_m = keep_one_side(bodies, problem.samples);
+  warn_of_pose_jumps(bodies, diagnostics);
+}
+
 }  // namespace
 
 void warn_of_unknown_heights(const KnownBeforehand& known, const std::vector<std::string>& tags,
@@ -189,6 +195,7 @@ LocalizationProblem make_problem(const EachRead& each_read, const std::vector<An
   JoinedReads joined =
       join_reads_with_tracks(each_read, problem.tracks, known.max_pose_gap_s, diagnostics);
   problem.samples = std::move(joined.samples);
+  if (!is_exact(known.pose_error)) leave_one_side_of_jumps(problem, diagnostics);
   problem.has_phases = joined.has_phases && are_radians(problem.samples, diagnostics);
   problem.offset_known = take_out_offsets(known.offsets, problem.samples);
   problem.pi_ambiguity =
@@ -208,7 +215,6 @@ LocalizationProblem make_problem(const EachRead& each_read, const std::vector<An
   problem.heights = known.heights;
   problem.reference_tags = known.reference_tags;
   problem.pose_error = known.pose_error;
-  if (!is_exact(known.pose_error)) warn_of_pose_jumps(problem.tracks, diagnostics);
   problem.map_error = map_error_of(known, problem.tracks);
   problem.drift = drift_of(known, problem.tracks);
   problem.limits = known.limits;

@@ -731,6 +731,9 @@ def jumps_of_the_poses_are_warned_of(context):
         result = context.run_well(*arguments)
         check_in("the poses of antenna 'mobile' jump by 0.30 m, from 20.0", result.out + result.err, command[0])
         check("good" not in result.out, f"{command[0]} says {result.out!r}")
+        if command[0] == "localize":
+            reasons = [row["reason"] for row in read_csv(context.folder / "moved/estimates.csv")]
+            check(any("a jump of the poses leaves it uncertain by 0." in reason for reason in reasons), f"{reasons}")
         smooth = context.run_well(*arguments[:3], run / "antenna_poses.csv", *command[1:])
         check("jump by" not in smooth.out + smooth.err, f"{command[0]} of the poses as they are: {smooth.err!r}")
 
