@@ -101,7 +101,7 @@ class Connection {
       headers_ = curl_.slist_append(headers_, line.c_str());
     }
     curl_.easy_setopt(handle_, CURLOPT_URL, url.c_str());
-    curl_.easy_setopt(handle_, CURLOPT_PROTOCOLS_STR, "http,https");
+    allow_http_only();
     curl_.easy_setopt(handle_, CURLOPT_HTTPHEADER, headers_);
     curl_.easy_setopt(handle_, CURLOPT_POST, 1L);
     curl_.easy_setopt(handle_, CURLOPT_NOSIGNAL, 1L);
@@ -140,6 +140,14 @@ class Connection {
   }
 
  private:
+  void allow_http_only() {
+#if LIBCURL_VERSION_NUM >= 0x075500
+    curl_.easy_setopt(handle_, CURLOPT_PROTOCOLS_STR, "http,https");
+#else  // Ubuntu 22.04
+    curl_.easy_setopt(handle_, CURLOPT_PROTOCOLS,
+                      static_cast<long>(CURLPROTO_HTTP | CURLPROTO_HTTPS));
+#endif
+  }
   static std::size_t take(char* bytes, std::size_t one, std::size_t count, void* self) {
     std::string& text = static_cast<Connection*>(self)->text_;
     text.append(bytes, std::min(one * count, kMaxAnswer - std::min(text.size(), kMaxAnswer)));
