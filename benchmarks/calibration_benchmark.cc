@@ -27,3 +27,5 @@ void calibration(benchmark::State& state) {
 BENCHMARK(calibration)->Unit(benchmark::kMillisecond);
 
 }  // namespace
+
+BENCHMARK_MAIN();

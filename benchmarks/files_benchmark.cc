@@ -34,7 +34,8 @@ void write_reads(benchmark::State& state) {
   std::size_t bytes = 0;
   for (auto _ : state) bytes += reads_to_csv(all).size();
   state.SetBytesProcessed(static_cast<std::int64_t>(bytes));
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) *
+                          static_cast<std::int64_t>(all.size()));
 }
 BENCHMARK(write_reads)->Unit(benchmark::kMillisecond);
 
@@ -46,10 +47,13 @@ void read_reads(benchmark::State& state) {
   std::size_t count = 0;
   for (auto _ : state) count += read_reads_csv(path).size();
   std::filesystem::remove(path);
-  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations()) *
+                          static_cast<std::int64_t>(text.size()));
   state.SetItemsProcessed(static_cast<std::int64_t>(count));
 }
 BENCHMARK(read_reads)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace tagfield
+
+BENCHMARK_MAIN();

@@ -81,3 +81,5 @@ BENCHMARK_CAPTURE(reads, fm0_640khz, link(6.25e-6, 2.0, 640e3, Encoding::kFm0, f
 
 }  // namespace
 }  // namespace tagfield
+
+BENCHMARK_MAIN();

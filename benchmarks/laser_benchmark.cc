@@ -245,3 +245,5 @@ BENCHMARK(Deskew)->Arg(0)->Arg(1)->ArgName("aws");
 
 }  // namespace
 }  // namespace tagfield
+
+BENCHMARK_MAIN();

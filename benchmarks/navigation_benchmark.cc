@@ -87,3 +87,5 @@ BENCHMARK(LocalizationAndDriving)
 
 }  // namespace
 }  // namespace tagfield
+
+BENCHMARK_MAIN();

@@ -140,3 +140,5 @@ BENCHMARK(images_alone)
 
 }  // namespace
 }  // namespace tagfield
+
+BENCHMARK_MAIN();

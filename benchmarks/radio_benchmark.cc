@@ -59,7 +59,8 @@ std::shared_ptr<const RadioWorld> world_at(const std::string& path) {
 }
 
 void count_links(benchmark::State& state, std::size_t links) {
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(links));
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) *
+                          static_cast<std::int64_t>(links));
 }
 
 void paper_model(benchmark::State& state) {
@@ -417,3 +418,5 @@ BENCHMARK(gen2)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace tagfield
+
+BENCHMARK_MAIN();

@@ -150,3 +150,5 @@ BENCHMARK(Antennas)->RangeMultiplier(4)->Range(1, 64)->Unit(benchmark::kMillisec
 
 }  // namespace
 }  // namespace tagfield
+
+BENCHMARK_MAIN();

@@ -316,8 +316,9 @@ void print_abilities(const BuildInfo& build, const std::vector<Ability>& all) {
 }
 
 void print_abilities_json(const BuildInfo& build, const std::vector<Ability>& all) {
-  nlohmann::ordered_json json = {
-      {"version", build.version}, {"commit", build.commit}, {"findings", nlohmann::json::array()}};
+  nlohmann::ordered_json json = {{"version", build.version},
+                                 {"commit", build.commit},
+                                 {"findings", nlohmann::ordered_json::array()}};
   for (const Ability& ability : all) {
     json["findings"].push_back({{"key", ability.key},
                                 {"works", ability.works},

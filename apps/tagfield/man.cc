@@ -50,7 +50,7 @@ int print_or_write(const CLI::App& app, const ManArguments& arguments) {
   }
   write_text_files(files);
   if (!arguments.as_json) return kExitOk;
-  nlohmann::ordered_json json = {{"files", nlohmann::json::array()}};
+  nlohmann::ordered_json json = {{"files", nlohmann::ordered_json::array()}};
   for (const auto& [path, text] : files) json["files"].push_back(path);
   print_json_line(json);
   return kExitOk;

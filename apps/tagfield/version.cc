@@ -33,7 +33,7 @@ std::string version_json(const BuildInfo& build) {
                                  {"compiler", build.compiler},
                                  {"build_type", build.kind},
                                  {"machine", build.machine},
-                                 {"parts", nlohmann::json::object()}};
+                                 {"parts", nlohmann::ordered_json::object()}};
   if (!build.commit.empty()) json.update({{"commit", build.commit}, {"date", build.date}});
   for (const OptionalPart& part : build.parts) json["parts"][part.key] = part.present;
   return json.dump(2) + "\n";
