@@ -18,7 +18,8 @@ skip() {
 
 # Whether Gazebo 11 is installed on this machine itself.
 gazebo_is_native() {
-  command -v gzserver >/dev/null && gzserver --version 2>/dev/null | grep --quiet 'version 11\.'
+  # Not by a pipe to grep --quiet, which would end gzserver by a signal while it prints the rest.
+  command -v gzserver >/dev/null && [[ "$(gzserver --version 2>/dev/null)" == *"version 11."* ]]
 }
 
 # require_root WHAT: sets `as_root` to the command prefix that runs a command as root, or skips. Asks

@@ -55,13 +55,11 @@ Qos with_user_data(const std::string& text) {
   return qos;
 }
 
-/// As in rmw: ROS 2 reads XCDR1 only, which is all that versions before 0.9 write.
+/// As in rmw: ROS 2 reads XCDR1 only.
 Qos writer_qos(Delivery delivery, const std::string& type_hash) {
   Qos qos = with_user_data(fmt::format("typehash={};", type_hash));
-#ifdef DDS_DATA_REPRESENTATION_XCDR1
   const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;
   libdds().qset_data_representation(qos.get(), 1, &xcdr1);
-#endif
   const bool keeps_one = delivery != Delivery::kReliable;
   libdds().qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, keeps_one ? 1 : kDepth);
   libdds().qset_reliability(

@@ -25,10 +25,8 @@ struct LibDds : LoadedLibrary {
   decltype(&dds_get_publication_matched_status) get_publication_matched_status =
       function("dds_get_publication_matched_status");
   decltype(&dds_lookup_participant) lookup_participant = function("dds_lookup_participant");
-#ifdef DDS_DATA_REPRESENTATION_XCDR1
   decltype(&dds_qset_data_representation) qset_data_representation =
       function("dds_qset_data_representation");
-#endif
   decltype(&dds_qset_durability) qset_durability = function("dds_qset_durability");
   decltype(&dds_qset_history) qset_history = function("dds_qset_history");
   decltype(&dds_qset_reliability) qset_reliability = function("dds_qset_reliability");
