@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -61,6 +62,23 @@ JsonArguments::JsonArguments(const std::string& body) : values_(nlohmann::json::
   if (!values_.is_object()) throw Error("the body must be a JSON object");
 }
 
+std::vector<std::string> JsonArguments::unasked() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : values_.items()) {
+    if (asked_.count(key) == 0) keys.push_back(key);
+  }
+  return keys;
+}
+
+std::string JsonArguments::written_otherwise(const std::string& key) const {
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  const auto is_same = [&](char a, char b) { return lower(a) == lower(b); };
+  for (const std::string& other : unasked()) {
+    if (std::equal(key.begin(), key.end(), other.begin(), other.end(), is_same)) return other;
+  }
+  return "";
+}
+
 bool JsonArguments::has(const std::string& key) {
   asked_.insert(key);
   return values_.contains(key);
@@ -69,7 +87,13 @@ bool JsonArguments::has(const std::string& key) {
 const nlohmann::json& JsonArguments::at(const std::string& key) {
   asked_.insert(key);
   const auto found = values_.find(key);
-  if (found == values_.end()) throw Error(fmt::format("'{}' is missing", key));
+  if (found == values_.end()) {
+    // Short names of different values resemble each other: x, y.
+    const std::string near = key.size() < 4 ? written_otherwise(key) : nearest_word(key, unasked());
+    throw Error(near.empty()
+                    ? fmt::format("'{}' is missing", key)
+                    : fmt::format("'{}' is missing (did you mean it by '{}'?)", key, near));
+  }
   return *found;
 }
 

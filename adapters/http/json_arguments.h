@@ -32,6 +32,10 @@ class JsonArguments {
 
  private:
   const nlohmann::json& at(const std::string& key);
+  /// The keys that were not requested yet.
+  [[nodiscard]] std::vector<std::string> unasked() const;
+  /// One of them that differs only in upper and lower case; "" if there is none.
+  [[nodiscard]] std::string written_otherwise(const std::string& key) const;
 
   nlohmann::json values_;
   std::set<std::string> asked_;  ///< The keys that are known here, as far as requested.

@@ -72,6 +72,17 @@ void add_check(const ScenarioToPlan& to_plan, const PlanQuestion& question, Ante
       check_plan(to_plan, plan.layouts[plan.chosen], question.seed, question.check_seeds, control);
 }
 
+/// Also where the aim is no share, or one of all zones together.
+void warn_of_empty_zones(const AntennaPlan& plan, Diagnostics& diagnostics) {
+  for (const PlannedZone& zone : plan.layouts[plan.chosen].zones) {
+    if (zone.tags == 0 || zone.read.high >= 1.0) continue;
+    diagnostics.warn(fmt::format("no tag of zone '{}' is read{}", zone.zone,
+                                 plan.stopped_by.empty()
+                                     ? std::string()
+                                     : fmt::format("; plan.{} allows no more", plan.stopped_by)));
+  }
+}
+
 void warn_of_shortfall(const AntennaPlan& plan, Diagnostics& diagnostics) {
   if (plan.reaches_aim) return;
   diagnostics.warn(fmt::format(
@@ -121,7 +132,7 @@ std::string chosen_text(const AntennaPlan& plan) {
   const double gap = std::max(0.0, layout.bound - layout.score);
   text += fmt::format(
       "no layout of {} antennas within the limits scores {}{}\n", layout.antennas.size(),
-      gap < 5e-5 ? "more" : fmt::format("over {:.4f} more", gap),
+      gap < 5e-5 ? "more" : fmt::format("over {:.4f}, this one {:.4f}", layout.bound, layout.score),
       plan.guaranteed ? fmt::format("; the greedy algorithm guarantees {:.0f} % of the best",
                                     std::floor(100.0 * *plan.guaranteed))
                       : std::string());
@@ -142,6 +153,7 @@ AntennaPlan plan_antennas(const ScenarioToPlan& to_plan, const PlanQuestion& que
   plan.limits = limits_text(to_plan.plan);
   add_check(to_plan, question, plan);
   warn_of_shortfall(plan, diagnostics);
+  warn_of_empty_zones(plan, diagnostics);
   plan.warnings = alike_as_one(diagnostics.warnings());
   return plan;
 }

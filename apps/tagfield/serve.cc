@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "adapters/http/admission.h"
+#include "adapters/http/embedded.h"
 #include "adapters/http/http_server.h"
 #include "adapters/http/laser_view.h"
 #include "adapters/llrp/llrp_server.h"
@@ -159,7 +160,12 @@ void print_addresses(const std::vector<llrp::LlrpAddress>& readers, const std::s
       fmt::print("llrp: {} at {} port {}\n", reader.reader, reader.address, reader.port);
     }
     if (!readers.empty()) fmt::print("Readers are silent until LLRP clients start them.\n");
-    if (!page.empty()) fmt::print("http: {}\n", page);
+    if (!page.empty()) {
+      fmt::print("http: {}{}\n", page,
+                 http::page_file().empty()
+                     ? " (the API alone: built without the page, see tagfield doctor)"
+                     : "");
+    }
   }
   flush_output();
 }

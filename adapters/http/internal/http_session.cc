@@ -40,8 +40,9 @@ constexpr const char* kPagePolicy =
 
 constexpr const char* kNoPage =
     "<!doctype html><meta charset=utf-8><title>Tagfield</title><p>This tagfield was built without "
-    "its page, as npm (Node.js) was missing. The world is at <a href=/api/status>/api/status</a>, "
-    "all of the API in <a href=/api/openapi.json>/api/openapi.json</a>.";
+    "its page: Node.js and npm were missing, or npm could not get its packages. With them, build "
+    "it again. The world is at <a href=/api/status>/api/status</a>, all of the API in <a "
+    "href=/api/openapi.json>/api/openapi.json</a>.";
 
 /// Response that refuses a request for reads; none if it is acceptable.
 std::optional<ApiResponse> refusal_of_reads(std::string_view address) {

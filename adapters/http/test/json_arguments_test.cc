@@ -44,6 +44,8 @@ TEST(JsonArguments, FaultsNameTheKey) {
   EXPECT_EQ(fault("[1]", nothing), "the body must be a JSON object");
   EXPECT_EQ(fault(R"({"n": 1})", nothing), "'n' is not known here");
   EXPECT_EQ(fault("{}", number), "'n' is missing");
+  EXPECT_EQ(fault(R"({"m": 1})", number), "'n' is missing");
+  EXPECT_EQ(fault(R"({"N": 1})", number), "'n' is missing (did you mean it by 'N'?)");
   EXPECT_EQ(fault(R"({"n": "1"})", number), "'n' must be a number");
   EXPECT_EQ(fault(R"({"n": 2})", number), "'n' must be from 0 to 1, is 2");
   EXPECT_NE(fault(R"({"n": 1e999})", number), "");
