@@ -384,7 +384,7 @@ namespace {
 const OptionTable<AutomaticOptions>& automatic_options() {
   using O = AutomaticOptions;
   static const OptionTable<O> of{{setting<O>(
-      "known_world", "multipath where a scenario's world is known, as its reads fit that",
+      "known_world", "multipath where a scenario's world is known, since its reads follow from it",
       &O::known_world)}};
   return of;
 }

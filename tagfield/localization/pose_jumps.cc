@@ -98,10 +98,12 @@ std::string in_words(const std::string& antenna, const std::vector<PoseJump>& ju
   const std::string times =
       jumps.size() == 1 ? "jump" : fmt::format("jump {} times, at most", jumps.size());
   return fmt::format(
-      "the poses of antenna '{}' {} by {:.2f} m, from {:.3f} s to {:.3f} s at ({:.2f}, {:.2f}): a "
-      "tag is located by its reads on one side of it, and its size is in the expected errors",
+      "the poses of antenna '{}' {} by {:.2f} m, from {:.3f} s to {:.3f} s at ({:.2f}, {:.2f}): {}",
       antenna, times, most.size_m, to_seconds(most.from), to_seconds(most.to), most.p_WA.x(),
-      most.p_WA.y());
+      most.p_WA.y(),
+      most.is_relocation ? "it had not driven as far, so tags are located by the reads after it"
+                         : "a tag is located by its reads on one side of it, and its size is in "
+                           "the expected errors");
 }
 
 /// Jumps in order of time, those that overlap as one.
@@ -117,6 +119,7 @@ std::vector<PoseJump> apart(std::vector<PoseJump> jumps) {
     }
     merged.back().to = std::max(merged.back().to, jump.to);
     merged.back().size_m = std::max(merged.back().size_m, jump.size_m);
+    merged.back().is_relocation = merged.back().is_relocation || jump.is_relocation;
   }
   return merged;
 }
@@ -154,13 +157,26 @@ ReadsBySide reads_by_side(const JumpingBody& body, const SamplesByTag& samples) 
   return all;
 }
 
-/// The jumps with reads before and after them.
-std::vector<PoseJump> jumps_amid(const ReadsBySide& reads, const std::vector<PoseJump>& jumps) {
-  const auto has_any = [](std::size_t count) { return count > 0; };
-  const auto first = std::find_if(reads.begin(), reads.end(), has_any);
-  if (first == reads.end()) return {};
-  const auto last = std::find_if(reads.rbegin(), reads.rend(), has_any);
-  return {jumps.begin() + (first - reads.begin()), jumps.end() - (last - reads.rbegin())};
+/// Number of the jumps until the last relocation.
+std::size_t until_relocation(const std::vector<PoseJump>& jumps) {
+  const auto last = std::find_if(jumps.rbegin(), jumps.rend(),
+                                 [](const PoseJump& jump) { return jump.is_relocation; });
+  return static_cast<std::size_t>(jumps.rend() - last);
+}
+
+/// The jumps from number `begin` on with reads before and after them.
+std::vector<PoseJump> jumps_amid(const ReadsBySide& reads, const std::vector<PoseJump>& jumps,
+                                 std::size_t begin) {
+  std::vector<PoseJump> amid;
+  for (std::size_t i = begin; i < jumps.size(); ++i) {
+    const auto middle = reads.begin() + static_cast<std::ptrdiff_t>(i + 1);
+    const auto has_any = [](std::size_t count) { return count > 0; };
+    if (std::any_of(reads.begin() + static_cast<std::ptrdiff_t>(begin), middle, has_any) &&
+        std::any_of(middle, reads.end(), has_any)) {
+      amid.push_back(jumps[i]);
+    }
+  }
+  return amid;
 }
 
 /// Nothing shows which side is right. Where half of the reads are elsewhere, a tag may be off by a
@@ -188,18 +204,61 @@ void keep_side(const JumpingBody& body, std::size_t side, SamplesOfTag& samples)
   }
 }
 
+/// What the sides of a body's jumps are worth.
+class Sides {
+ public:
+  Sides(const JumpingBody& body, const SamplesByTag& samples)
+      : jumps_(body.jumps),
+        reads_(reads_by_side(body, samples)),
+        first_(until_relocation(jumps_)),
+        amid_(jumps_amid(reads_, jumps_, first_)) {}
+
+  /// The side with most of a tag's reads, after the relocation if there are any.
+  [[nodiscard]] std::size_t of_most(const ReadsBySide& reads) const {
+    const auto valid = reads.begin() + static_cast<std::ptrdiff_t>(first_);
+    const auto after = std::max_element(valid, reads.end());
+    const auto most = *after > 0 ? after : std::max_element(reads.begin(), reads.end());
+    return static_cast<std::size_t>(most - reads.begin());
+  }
+  [[nodiscard]] double deviation_m(std::size_t side) const {
+    if (side < first_) return jumps_[first_ - 1].size_m;
+    if (amid_.empty()) return 0.0;
+    const auto valid = reads_.begin() + static_cast<std::ptrdiff_t>(first_);
+    const auto count = std::accumulate(valid, reads_.end(), std::size_t{0});
+    const double here = static_cast<double>(reads_[side]) / static_cast<double>(count);
+    return std::sqrt(chance_of_other_frame(here) * mean_square(amid_));
+  }
+  /// Those with reads before and after them.
+  [[nodiscard]] std::vector<PoseJump> jumps_to_tell() const {
+    return jumps_amid(reads_, jumps_, 0);
+  }
+
+ private:
+  const std::vector<PoseJump>& jumps_;
+  ReadsBySide reads_;
+  std::size_t first_;  ///< Side from which on there is no relocation.
+  std::vector<PoseJump> amid_;
+};
+
 }  // namespace
 
 std::vector<PoseJump> pose_jumps(const Trajectory& X_WA) {
   std::vector<PoseJump> jumps;
   const std::vector<Step> steps = steps_of(X_WA);
   const UsualStep usual = usual_step(steps);
+  double driven_m = steps.empty() ? 0.0 : steps.front().way.norm();
   for (std::size_t i = 1; i + 1 < steps.size(); ++i) {
     const Step& step = steps[i];
     const double least_m = std::max({kLeast_m, driven_off(step, usual), kOverUsual * usual.off_m});
-    if (!(step.off_m > least_m) || !is_largest_nearby(steps, i)) continue;
+    if (!(step.off_m > least_m) || !is_largest_nearby(steps, i)) {
+      driven_m += step.way.norm();
+      continue;
+    }
     const StampedPose& from = X_WA[i];
-    jumps.push_back({from.stamp, X_WA[i + 1].stamp, step.off_m, from.X_WB.translation.head<2>()});
+    const bool is_relocation = step.off_m > driven_m;
+    jumps.push_back({from.stamp, X_WA[i + 1].stamp, step.off_m, from.X_WB.translation.head<2>(),
+                     is_relocation});
+    if (is_relocation) driven_m = 0.0;
   }
   return jumps;
 }
@@ -241,20 +300,17 @@ std::map<std::string, double> keep_one_side(std::vector<JumpingBody>& bodies,
                                             SamplesByTag& samples) {
   std::map<std::string, double> deviations;
   for (JumpingBody& body : bodies) {
-    const ReadsBySide all = reads_by_side(body, samples);
-    const auto count = static_cast<double>(std::accumulate(all.begin(), all.end(), std::size_t{0}));
-    std::vector<PoseJump> amid = jumps_amid(all, body.jumps);
+    const Sides sides(body, samples);
     for (auto& [tag, of_tag] : samples) {
       const ReadsBySide reads = reads_by_side(body, of_tag);
-      const auto most = std::max_element(reads.begin(), reads.end());
-      const auto side = static_cast<std::size_t>(most - reads.begin());
+      const std::size_t side = sides.of_most(reads);
       keep_side(body, side, of_tag);
-      if (*most == 0 || amid.empty()) continue;
-      const double here = static_cast<double>(all[side]) / count;
-      double& deviation = deviations[tag];
-      deviation = std::max(deviation, std::sqrt(chance_of_other_frame(here) * mean_square(amid)));
+      const double deviation_m = reads[side] > 0 ? sides.deviation_m(side) : 0.0;
+      if (deviation_m <= 0.0) continue;
+      double& largest_m = deviations[tag];
+      largest_m = std::max(largest_m, deviation_m);
     }
-    body.jumps = std::move(amid);
+    body.jumps = sides.jumps_to_tell();
   }
   bodies.erase(std::remove_if(bodies.begin(), bodies.end(),
                               [](const JumpingBody& body) { return body.jumps.empty(); }),

@@ -17,6 +17,10 @@ struct PoseJump {
   Time from, to;         ///< Stamps of the poses before and after.
   double size_m = 0.0;   ///< Horizontal distance from where its motion leads.
   Eigen::Vector2d p_WA;  ///< Position before it [m].
+  /// It is larger than what was driven since the start, or since the relocation before: so far off
+  /// the antenna can't have been, unless it was carried or its place was unknown. The poses before
+  /// it are then wrong, and those after it right.
+  bool is_relocation = false;
 };
 
 /// The jumps of a trajectory that is sorted by time. The motion before and after a step (the mean
@@ -38,13 +42,14 @@ struct JumpingBody {
 std::vector<JumpingBody> jumping_bodies(const LocalizationProblem& problem);
 
 /// Leaves of each tag's reads by a body's antennas those between two jumps, where most of them are,
-/// and none amid a jump. Jumps with reads on one side only have no other effect, and are removed
-/// from `bodies`.
+/// after a relocation if there are any, and none amid a jump. Jumps with reads on one side only
+/// have no other effect, and are removed from `bodies`.
 ///
-/// Returns by tag the standard deviation [m] of its position due to jumps of the mean square J²,
-/// √(min(1, 2 (1 − w)) J²), with the share w of all reads on the tag's side. Nothing shows which
-/// side is right: where half of the reads are elsewhere, a tag may be off by a whole jump; the
-/// fewer are, as before a robot has found its place, the less likely the frame is theirs.
+/// Returns by tag the standard deviation [m] of its position due to jumps. After the last
+/// relocation it is √(min(1, 2 (1 − w)) J²), for jumps of the mean square J² and the share w of all
+/// reads there that are on the tag's side. Nothing shows which side is right: where half of the
+/// reads are elsewhere, a tag may be off by a whole jump; the fewer are, the less likely the frame
+/// is theirs. A tag that is read only before a relocation may be off by all of it.
 std::map<std::string, double> keep_one_side(std::vector<JumpingBody>& bodies,
                                             SamplesByTag& samples);
 

@@ -105,7 +105,8 @@ PhaseSample sample_at(double time_s) {
 }
 
 PoseJump jump_between(double from_s, double to_s, double size_m) {
-  return {time_from_seconds(from_s), time_from_seconds(to_s), size_m, Eigen::Vector2d::Zero()};
+  return {time_from_seconds(from_s), time_from_seconds(to_s), size_m, Eigen::Vector2d::Zero(),
+          false};
 }
 
 // A tag keeps the reads on the side where most are; the frame is that of all reads.
@@ -128,6 +129,32 @@ TEST(PoseJumps, LeaveATagTheReadsOnOneSide) {
   EXPECT_NEAR(deviations.at("early"), 0.2 * std::sqrt(6.0 / 11.0), 1e-12);
   EXPECT_NEAR(deviations.at("both"), 0.2, 1e-12);
   EXPECT_EQ(deviations.count("amid"), 0U);
+}
+
+// So far off it can't have been: only what comes after counts, and nothing is added to it.
+TEST(PoseJumps, BeyondWhatWasDrivenLeaveTheReadsAfterThem) {
+  const auto jumps = pose_jumps(
+      with_jump(with_jump(lap(15.0, 0.0), 2.01, {5.0, 0.0, 0.0}), 30.01, {0.0, 0.3, 0.0}));
+  ASSERT_EQ(jumps.size(), 2U);
+  EXPECT_TRUE(jumps[0].is_relocation);
+  EXPECT_FALSE(jumps[1].is_relocation);
+  SamplesByTag samples;
+  for (int i = 0; i < 30; ++i) samples["both"]["a"].push_back(sample_at(0.1 * i));
+  samples["early"]["a"] = {sample_at(1.0)};
+  samples["late"]["a"] = {sample_at(3.0), sample_at(40.0), sample_at(41.0)};
+  std::vector<JumpingBody> bodies = {{{"a"}, {jumps[0]}}};
+  SamplesByTag of_first = samples;
+  const auto deviations = keep_one_side(bodies, of_first);
+  EXPECT_EQ(of_first["both"]["a"].size(), 9U);
+  EXPECT_EQ(deviations.count("both"), 0U);
+  EXPECT_NEAR(deviations.at("early"), 5.0, 1e-9);
+  bodies = {{{"a"}, jumps}};
+  SamplesByTag of_both = samples;
+  const auto by_both = keep_one_side(bodies, of_both);
+  EXPECT_EQ(of_both["late"]["a"].size(), 2U);
+  EXPECT_NEAR(by_both.at("late"), 0.3, 1e-9);  // 2 of the 12 reads after the first jump.
+  EXPECT_NEAR(by_both.at("both"), 0.3 * std::sqrt(2.0 * 2.0 / 12.0), 1e-9);
+  EXPECT_EQ(bodies[0].jumps.size(), 2U);
 }
 
 TEST(PoseJumps, BeforeTheFirstReadOrAfterTheLastHaveNoEffect) {
