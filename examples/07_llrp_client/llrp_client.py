@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""An LLRP client in a hundred lines, using only Python's standard library.
+"""An LLRP client in 150 lines, using only Python's standard library.
 
     tagfield serve scenarios/portal.yaml --llrp 5084 &
     examples/07_llrp_client/llrp_client.py --port 5084 --seconds 3
