@@ -367,8 +367,8 @@ def bad_suites_are_refused(context):
     check_refused(context, suite, f"{suite}:3: ", "has 'seeds' twice")
     good = suite_of(context, SMALL)
     check_refused(context, good, "--methods: ",
-                  "the suite has no method 'hyperbol' (did you mean 'hyperbola'?)", "--methods",
-                  "hyperbol")
+                  "the suite has no method 'hyperbol' (did you mean 'hyperbola'?); --command NAME=PROGRAM adds one",
+                  "--methods", "hyperbol")
     check_refused(context, good, "--conditions: ", "did you mean 'lossy'?", "--conditions", "losy")
     check_refused(context, "no_suite.yaml", "no_suite.yaml", "")
     result = context.run("bench")

@@ -73,7 +73,7 @@ def robot(context):
 
 @case
 def integrator(context):
-    check_equal(run_page(context, "tutorial_integrator.md"), 4, "texts compared")
+    check_equal(run_page(context, "tutorial_integrator.md"), 8, "texts compared")
 
 
 if __name__ == "__main__":

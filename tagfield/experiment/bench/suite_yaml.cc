@@ -261,11 +261,13 @@ void require_unique_names(const std::vector<Named>& things, const char* kind) {
   }
 }
 
-/// `owner` is what would have it: "there is", "the suite has".
+/// `owner` is what would have it: "there is", "the suite has"; `advice` follows the message.
 void require_known(const std::string& name, const std::vector<std::string>& known,
-                   const Location& location, const char* kind, const char* owner = "there is") {
+                   const Location& location, const char* kind, const char* owner = "there is",
+                   const std::string& advice = "") {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  fail(location, fmt::format("{} no {} '{}'{}", owner, kind, name, suggestion(name, known)));
+  fail(location,
+       fmt::format("{} no {} '{}'{}{}", owner, kind, name, suggestion(name, known), advice));
 }
 
 void check(const Suite& suite) {
@@ -334,10 +336,10 @@ Suite suite_in(const YAML::Node& root, const std::string& path, bool on_disk) {
 
 template <typename Named>
 void keep_only(std::vector<Named>& things, const std::vector<std::string>& names,
-               const char* option, const char* kind) {
+               const char* option, const char* kind, const std::string& advice = "") {
   if (names.empty()) return;
   for (const std::string& name : names) {
-    require_known(name, names_of(things), {option, 0}, kind, "the suite has");
+    require_known(name, names_of(things), {option, 0}, kind, "the suite has", advice);
   }
   std::erase_if(things, [&](const Named& thing) {
     return std::find(names.begin(), names.end(), thing.name) == names.end();
@@ -363,7 +365,7 @@ void set_world_options(const WorldOptions& options, Suite& suite) {
 Suite only(const Suite& suite, const std::vector<std::string>& methods,
            const std::vector<std::string>& conditions) {
   Suite kept = suite;
-  keep_only(kept.methods, methods, "--methods", "method");
+  keep_only(kept.methods, methods, "--methods", "method", "; --command NAME=PROGRAM adds one");
   keep_only(kept.conditions, conditions, "--conditions", "condition");
   std::erase_if(kept.conditions, [&](const Condition& condition) {
     return std::none_of(kept.methods.begin(), kept.methods.end(),
