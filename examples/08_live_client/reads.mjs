@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads from a live world in JavaScript, with Node.js alone:
+// Reads from a live world in JavaScript, with Node.js 18 or later alone:
 //
 //   tagfield serve scenarios/portal.yaml &
 //   node examples/08_live_client/reads.mjs http://127.0.0.1:8080 tag_01

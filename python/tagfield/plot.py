@@ -181,7 +181,7 @@ def coverage(covered: Coverage, quantity: str = "probability", layer: int = 0,
     ax.set_ylim(covered.y_m[0] - half, covered.y_m[-1] + half)
     _plan(ax)
     if len(covered.tags):
-        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, frameon=False)
+        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2, frameon=False)
     ax.set_title(f"{covered.scenario.name}, {of_layer.height_m:.2f} m: "
                  f"{100 * of_layer.share_read:.0f} % of the area read")
     return ax

@@ -242,6 +242,9 @@ def pages_get_frames(context):
 def the_example_in_javascript_prints_reads(context):
     if shutil.which("node") is None:
         raise Skip("node is missing (scripts/setup --tests installs it)")
+    version = run(["node", "--version"]).out.strip()
+    if int(version.lstrip("v").split(".")[0]) < 18:
+        raise Skip(f"node is {version}; the example needs 18 or later")
     with served(context, context.shipped(PORTAL)) as server:
         result = run(["node", context.source / "examples/08_live_client/reads.mjs",
                       server.addresses["http"], "tag_01", "30"])
