@@ -4,11 +4,11 @@
 # All mounts are made in a private namespace and vanish with it, whatever happens.
 in_private_mounts() { unshare --mount -- "$@"; }
 
-# in_root ROOT COMMAND…: runs a command as root in the root, with no more of this environment than proxies and npm's
-# settings.
+# in_root ROOT COMMAND…: runs a command as root in the root, with no more of this environment than proxies, their
+# certificates for Node.js, and npm's settings.
 in_root() {
   local kept
-  mapfile -t kept < <(env | grep --extended-regexp '^((https?|no)_proxy|npm_config_[a-z_]+)=')
+  mapfile -t kept < <(env | grep --extended-regexp '^((https?|no)_proxy|NODE_EXTRA_CA_CERTS|npm_config_[a-z_]+)=')
   PATH=$PATH:/usr/sbin:/sbin in_private_mounts bash -c '
     set -e
     root=$1; shift
