@@ -40,7 +40,8 @@ constexpr const char* kPagePolicy =
 
 constexpr const char* kNoPage =
     "<!doctype html><meta charset=utf-8><title>Tagfield</title><p>This tagfield was built without "
-    "its page: Node.js and npm were missing, or npm could not get its packages. With them, build "
+    "its page: Node.js (18 or later) and npm were missing, or npm could not get its packages. With "
+    "them, build "
     "it again. The world is at <a href=/api/status>/api/status</a>, all of the API in <a "
     "href=/api/openapi.json>/api/openapi.json</a>.";
 

@@ -42,8 +42,10 @@ std::size_t common_beginning(const std::vector<std::string>& names, const Alike&
 
 std::vector<std::string> distinct_names(const std::vector<std::string>& names, std::size_t most) {
   std::vector<std::string> whole;
+  whole.reserve(names.size());
   for (const std::string& name : names) whole.push_back(clean_text(name));
   std::vector<std::string> shown;
+  shown.reserve(whole.size());
   for (const std::string& name : whole) shown.push_back(shortened(name, most));
   for (const Alike& alike : look_alikes(shown)) {
     const std::size_t common = common_beginning(whole, alike);
