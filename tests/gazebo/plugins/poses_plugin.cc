@@ -5,8 +5,10 @@
 //   NAME<tab>x y z qx qy qz qw
 #include <cstdlib>
 #include <fstream>
+#include <gazebo/common/Console.hh>
+#include <gazebo/common/Events.hh>
 #include <gazebo/common/Plugin.hh>
-#include <gazebo/common/common.hh>
+#include <gazebo/common/Time.hh>
 #include <gazebo/physics/physics.hh>
 #include <iomanip>
 

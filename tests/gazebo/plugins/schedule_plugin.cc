@@ -11,8 +11,10 @@
 //   <reset time="3.0"/>                                 of the world's time and poses
 //   <stop time="9.0"/>                                  pauses the world
 #include <fstream>
+#include <gazebo/common/Console.hh>
+#include <gazebo/common/Events.hh>
 #include <gazebo/common/Plugin.hh>
-#include <gazebo/common/common.hh>
+#include <gazebo/common/Time.hh>
 #include <gazebo/physics/physics.hh>
 #include <gazebo/transport/transport.hh>
 #include <map>
