@@ -62,6 +62,13 @@ void require_token(ServeArguments& arguments) {
 
 void warn(const std::string& line) { fmt::print(stderr, "tagfield: warning: {}\n", line); }
 
+/// Where the address is of use for the API alone.
+void warn_of_missing_page() {
+  if (http::page_file().empty()) {
+    warn("there is no page at this address: tagfield was built without it (see tagfield doctor)");
+  }
+}
+
 std::shared_ptr<llrp::LlrpServer> llrp_server(const ServeArguments& arguments) {
   if (!arguments.llrp) return nullptr;
   llrp::LlrpOptions options;
@@ -160,12 +167,7 @@ void print_addresses(const std::vector<llrp::LlrpAddress>& readers, const std::s
       fmt::print("llrp: {} at {} port {}\n", reader.reader, reader.address, reader.port);
     }
     if (!readers.empty()) fmt::print("Readers are silent until LLRP clients start them.\n");
-    if (!page.empty()) {
-      fmt::print("http: {}{}\n", page,
-                 http::page_file().empty()
-                     ? " (the API alone: built without the page, see tagfield doctor)"
-                     : "");
-    }
+    if (!page.empty()) fmt::print("http: {}\n", page);
   }
   flush_output();
 }
@@ -225,6 +227,7 @@ int serve(ServeArguments arguments) {
                    http::HttpOptions{arguments.listen, *arguments.http, arguments.token});
   }
   catch_interrupts();  // Before the server announces its address.
+  if (server) warn_of_missing_page();
   print_addresses(llrp ? llrp->addresses() : std::vector<llrp::LlrpAddress>{},
                   server ? server->url() : std::string(), arguments.as_json);
   world.run(interrupted());

@@ -20,9 +20,19 @@ def npm(words, folder, what):
 
 
 @functools.cache
+def require_node(least):
+    """Skips the case without Node.js of this major version or a later one."""
+    if shutil.which("node") is None:
+        raise Skip("node is missing (scripts/setup --tests installs it)")
+    version = run(["node", "--version"]).out.strip()
+    if int(version.lstrip("v").split(".")[0]) < least:
+        raise Skip(f"node is {version}; {least} or later is needed")
+
+
 def npm_packages(build, here, name, then=None):
     """The folder under `build` with the packages of package-lock.json in the folder `here`, and with what
     `then(folder)` adds; installed if necessary, by one process at a time. Skips the case if that fails."""
+    require_node(18)
     folder = build / "tests" / name
     folder.mkdir(parents=True, exist_ok=True)
     lock = (here / "package-lock.json").read_bytes()

@@ -11,7 +11,6 @@ import math
 import os
 import pathlib
 import random
-import shutil
 import signal
 import socket
 import sys
@@ -19,8 +18,9 @@ import threading
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "command"))
-from common import (Skip, case, check, check_between, check_equal, check_in,  # noqa: E402
+from common import (case, check, check_between, check_equal, check_in,  # noqa: E402
                     check_near, main, read_csv, read_json, run)
+from npm import require_node  # noqa: E402
 from served import served  # noqa: E402
 
 try:
@@ -240,11 +240,7 @@ def pages_get_frames(context):
 
 @case
 def the_example_in_javascript_prints_reads(context):
-    if shutil.which("node") is None:
-        raise Skip("node is missing (scripts/setup --tests installs it)")
-    version = run(["node", "--version"]).out.strip()
-    if int(version.lstrip("v").split(".")[0]) < 18:
-        raise Skip(f"node is {version}; the example needs 18 or later")
+    require_node(18)
     with served(context, context.shipped(PORTAL)) as server:
         result = run(["node", context.source / "examples/08_live_client/reads.mjs",
                       server.addresses["http"], "tag_01", "30"])
