@@ -62,13 +62,6 @@ void require_token(ServeArguments& arguments) {
 
 void warn(const std::string& line) { fmt::print(stderr, "tagfield: warning: {}\n", line); }
 
-/// Where the address is of use for the API alone.
-void warn_of_missing_page() {
-  if (http::page_file().empty()) {
-    warn("there is no page at this address: tagfield was built without it (see tagfield doctor)");
-  }
-}
-
 std::shared_ptr<llrp::LlrpServer> llrp_server(const ServeArguments& arguments) {
   if (!arguments.llrp) return nullptr;
   llrp::LlrpOptions options;
@@ -154,6 +147,9 @@ std::string plan_of(const ServeArguments& arguments, Diagnostics& diagnostics) {
 
 void print_addresses(const std::vector<llrp::LlrpAddress>& readers, const std::string& page,
                      bool as_json) {
+  if (!page.empty() && http::page_file().empty()) {
+    warn("there is no page at this address: tagfield was built without it (see tagfield doctor)");
+  }
   if (as_json) {
     nlohmann::ordered_json all = {{"http", nullptr}, {"llrp", nlohmann::ordered_json::array()}};
     if (!page.empty()) all["http"] = page;
@@ -227,7 +223,6 @@ int serve(ServeArguments arguments) {
                    http::HttpOptions{arguments.listen, *arguments.http, arguments.token});
   }
   catch_interrupts();  // Before the server announces its address.
-  if (server) warn_of_missing_page();
   print_addresses(llrp ? llrp->addresses() : std::vector<llrp::LlrpAddress>{},
                   server ? server->url() : std::string(), arguments.as_json);
   world.run(interrupted());
