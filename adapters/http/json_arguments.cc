@@ -129,12 +129,12 @@ std::vector<double> JsonArguments::numbers(const std::string& key, std::size_t c
 }
 
 void JsonArguments::finish() const {
-  for (const auto& [key, value] : values_.items()) {
-    if (asked_.count(key) > 0) continue;
-    const std::string near = nearest_word(key, {asked_.begin(), asked_.end()});
-    throw Error(fmt::format("'{}' is not known here{}", key,
-                            near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
-  }
+  const std::vector<std::string> unknown = unasked();
+  if (unknown.empty()) return;
+  const std::string& key = unknown.front();
+  const std::string near = nearest_word(key, {asked_.begin(), asked_.end()});
+  throw Error(fmt::format("'{}' is not known here{}", key,
+                          near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
 }
 
 }  // namespace tagfield::http

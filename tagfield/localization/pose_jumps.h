@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/localization/method.h"
 #include "tagfield/localization/problem.h"
 
 namespace tagfield {
@@ -31,35 +30,14 @@ struct PoseJump {
 /// by, which normal noise of the poses exceeds in one step of 10¹¹.
 std::vector<PoseJump> pose_jumps(const Trajectory& X_WA);
 
-/// Antennas of one body, whose poses jump together.
-struct JumpingBody {
-  std::vector<std::string> antennas;
-  std::vector<PoseJump> jumps;  ///< In order of time, apart from each other.
-};
+/// Warns of an antenna's jumps, if there are any: how many, and when, where and how large the
+/// largest one is.
+void warn_of_pose_jumps(const std::string& antenna, const std::vector<PoseJump>& jumps,
+                        Diagnostics& diagnostics);
 
-/// The bodies whose poses jump. A jump of any of its antennas is one of the body, with the size of
-/// the largest.
-std::vector<JumpingBody> jumping_bodies(const LocalizationProblem& problem);
-
-/// Leaves of each tag's reads by a body's antennas those between two jumps, where most of them are,
-/// after a relocation if there are any, and none amid a jump. Jumps with reads on one side only
-/// have no other effect, and are removed from `bodies`.
-///
-/// Returns by tag the standard deviation [m] of its position due to jumps. After the last
-/// relocation it is √(min(1, 2 (1 − w)) J²), for jumps of the mean square J² and the share w of all
-/// reads there that are on the tag's side. Nothing shows which side is right: where half of the
-/// reads are elsewhere, a tag may be off by a whole jump; the fewer are, the less likely the frame
-/// is theirs. A tag that is read only before a relocation may be off by all of it.
-std::map<std::string, double> keep_one_side(std::vector<JumpingBody>& bodies,
-                                            SamplesByTag& samples);
-
-/// Adds LocalizationProblem::pose_jump_m to each position, alike in both directions.
-void add_pose_jumps(const LocalizationProblem& problem, LocalizationResult& result);
-
-/// Warns of jumps: how many, and when, where and how large the largest one is. Antennas of a robot
-/// jump together, so only those of the antenna or body with most of them are reported.
+/// Same. Antennas of a robot jump together, so only those of the antenna with most of them are
+/// reported.
 void warn_of_pose_jumps(const std::map<std::string, BelievedTrack>& tracks,
                         Diagnostics& diagnostics);
-void warn_of_pose_jumps(const std::vector<JumpingBody>& bodies, Diagnostics& diagnostics);
 
 }  // namespace tagfield

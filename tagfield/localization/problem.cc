@@ -8,10 +8,10 @@
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/judgement.h"
+#include "tagfield/localization/jumping_bodies.h"
 #include "tagfield/localization/phase_jumps.h"
 #include "tagfield/localization/phase_unit.h"
 #include "tagfield/localization/pi_ambiguity.h"
-#include "tagfield/localization/pose_jumps.h"
 #include "tagfield/localization/stops.h"
 
 namespace tagfield {

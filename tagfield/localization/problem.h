@@ -230,7 +230,7 @@ struct LocalizationProblem {
   std::optional<MapError> map_error;         ///< nullopt if unknown; with an origin.
   /// By antenna, sorted by time; of those that drift.
   std::map<std::string, std::vector<Drift>> drift;
-  /// By tag: horizontal standard deviation [m] due to jumps of the poses (pose_jumps.h).
+  /// By tag: horizontal standard deviation [m] due to jumps of the poses (jumping_bodies.h).
   std::map<std::string, double> pose_jump_m;
   bool has_phases = true;     ///< False if they are identical: the reads have none.
   bool pi_ambiguity = false;  ///< Phases and carriers were doubled (pi_ambiguity.h).
@@ -272,7 +272,7 @@ void warn_of_unknown_heights(const KnownBeforehand& known, const std::vector<std
 /// Joins reads (in any order) with the antennas' believed poses, interpolated at each read's stamp,
 /// subtracts known offsets, doubles phases that have a π ambiguity, separates the channels before
 /// and after a jump of the reader's phase (phase_jumps.h), leaves each tag the reads on one side of
-/// a jump of the poses (pose_jumps.h) and merges reads at stops (stops.h).
+/// a jump of the poses (jumping_bodies.h) and merges reads at stops (stops.h).
 /// Reads without a pose are left out with a warning. Throws Error if values in `known` are not
 /// finite or out of range.
 LocalizationProblem make_problem(const std::vector<TagRead>& reads,

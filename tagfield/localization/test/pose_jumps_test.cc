@@ -10,6 +10,7 @@
 
 #include "survey_claims.h"
 #include "tagfield/base/test/error_text.h"
+#include "tagfield/localization/jumping_bodies.h"
 
 namespace tagfield {
 namespace {
