@@ -6,14 +6,23 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 
 #include "tagfield/base/lane_math.h"
 #include "tagfield/base/units.h"
+#include "tagfield/channel/internal/end_lanes.h"
 
 namespace tagfield {
 namespace {
 
+using channel_internal::add_gains;
+using channel_internal::AntennaFrame;
+using channel_internal::EndLanes;
+using channel_internal::frame_of;
+using channel_internal::hand_of;
+using channel_internal::has_wire;
+using channel_internal::needs_frame;
+using channel_internal::Wire;
+using channel_internal::wire_of;
 using Eigen::Vector3d;
 using Lane = StraightLinks::Lane;
 using Vectors = StraightLinks::Vectors;
@@ -30,14 +39,6 @@ inline double along(const Axis& axis, const Vectors& way, std::size_t i) {
   return x_of(axis, i) * way.x[i] + y_of(axis, i) * way.y[i] + z_of(axis, i) * way.z[i];
 }
 
-/// The antenna's axes in W, the same for all links. Passed by value, so that loops keep it in
-/// registers.
-struct AntennaFrame {
-  Vector3d boresight;
-  Vector3d left;
-  Vector3d up;
-};
-
 /// Rotations as unit quaternions, and those of their columns that patterns need.
 struct TagFrames {
   Lane w;
@@ -46,15 +47,6 @@ struct TagFrames {
   Vectors left;
   Vectors up;
   Vectors wire;
-};
-
-/// The factors of one end for each link.
-struct EndLanes {
-  Vectors way_own;  ///< Direction from this end, in its frame, if needs_frame().
-  Lane along_wire;  ///< Cosine of the angle between the direction from this end and the wire, if
-                    ///< has_wire().
-  Lane power;       ///< Gain multiplied by
-  Lane divisor;     ///< this, so that one division serves both ends.
 };
 
 struct Work {
@@ -66,41 +58,6 @@ struct Work {
   EndLanes antenna;
   EndLanes tag;
 };
-
-/// A wire along of_left·left + of_up·up.
-struct Wire {
-  double of_left;
-  double of_up;
-};
-Wire wire_of(const AntennaPattern& pattern) {
-  return {std::sin(pattern.tilt_rad), std::cos(pattern.tilt_rad)};
-}
-
-bool has_wire(const AntennaPattern& pattern) {
-  return pattern.shape == PatternShape::kDipole ||
-         pattern.polarization == PolarizationKind::kLinear;
-}
-
-/// Whether it has a directional gain other than that of its wire.
-bool is_directed(const AntennaPattern& pattern, const ChannelEffects& effects) {
-  return effects.patterns && pattern.shape != PatternShape::kIsotropic &&
-         pattern.shape != PatternShape::kDipole;
-}
-
-bool needs_frame(const AntennaPattern& pattern, const ChannelEffects& effects) {
-  return is_directed(pattern, effects) || !has_wire(pattern);
-}
-
-/// The columns of a rotation matrix; Eigen's function doesn't guarantee a fixed order of summation.
-AntennaFrame frame_of(const Eigen::Quaterniond& q) {
-  const double w = q.w();
-  const double x = q.x();
-  const double y = q.y();
-  const double z = q.z();
-  return {{1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)},
-          {2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)},
-          {2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)}};
-}
 
 void set_boresights(std::size_t count, TagFrames& frames) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -167,64 +124,6 @@ void set_ways(const Vector3d& p_WA, std::size_t count, Work& work) {
 template <class Axis>
 void turn_paths(Axis axis, double sign, const Vectors& way, std::size_t count, Lane& own) {
   for (std::size_t i = 0; i < count; ++i) own[i] = sign * along(axis, way, i);
-}
-
-/// The direction-independent values for the patterns of patches.
-struct PatchLobe {
-  double peak;
-  double back;
-  double exponent;  ///< In the x, y plane,
-  double vertical;  ///< in the x, z plane.
-};
-
-double lobe_exponent_of(double beam_width_rad) {
-  return std::log(0.5) / std::log(std::cos(0.5 * beam_width_rad));
-}
-
-void add_patch_gains(const PatchLobe& lobe, std::size_t count, EndLanes& end) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double y = end.way_own.y[i] * end.way_own.y[i];
-    const double z = end.way_own.z[i] * end.way_own.z[i];
-    const double off = y + z;
-    const double middle = 0.5 * (lobe.exponent + lobe.vertical);
-    const double between = (y * lobe.exponent + z * lobe.vertical) / choose(off > 0.0, off, 1.0);
-    const double exponent = choose(off > 0.0, between, middle);
-    const double x = end.way_own.x[i];
-    const double in_front = lane_exp(exponent * lane_log(choose(x > 1e-300, x, 1e-300)));
-    end.power[i] = lobe.peak * choose(in_front > lobe.back, in_front, lobe.back);
-  }
-}
-
-void add_dipole_gains(double peak, std::size_t count, EndLanes& end) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double cosine = end.along_wire[i];
-    const double sine_squared = 1.0 - cosine * cosine;
-    const double amplitude = lane_sine_cosine(0.5 * kPi * cosine).cosine;
-    const bool is_beside = sine_squared > 1e-15;
-    end.power[i] = choose(is_beside, peak * (amplitude * amplitude), 0.0);
-    end.divisor[i] = choose(is_beside, sine_squared, 1.0);
-  }
-}
-
-void add_gains(const AntennaPattern& pattern, const ChannelEffects& effects, InstructionSet set,
-               std::size_t count, EndLanes& end) {
-  const bool is_even = !effects.patterns || pattern.shape == PatternShape::kIsotropic;
-  const double peak = peak_gain(pattern);
-  std::fill_n(end.divisor.begin(), count, 1.0);
-  if (is_even) {
-    std::fill_n(end.power.begin(), count, peak);
-  } else if (pattern.shape == PatternShape::kPatch) {
-    const PatchLobe lobe{peak, std::exp(-0.1 * std::numbers::ln10 * pattern.front_to_back_db),
-                         lobe_exponent_of(pattern.beam_width_rad),
-                         lobe_exponent_of(pattern.vertical_beam_width_rad)};
-    in_lanes(set, [&] { add_patch_gains(lobe, count, end); });
-  } else if (pattern.shape == PatternShape::kDipole) {
-    in_lanes(set, [&] { add_dipole_gains(peak, count, end); });
-  } else {
-    for (std::size_t i = 0; i < count; ++i) {
-      end.power[i] = gain(pattern, {end.way_own.x[i], end.way_own.y[i], end.way_own.z[i]});
-    }
-  }
 }
 
 /// The component of a wire perpendicular to the path, and its squared length.
@@ -345,10 +244,6 @@ bool add_links(const Carrier& carrier, const TakenAt& taken_at, std::size_t coun
     any |= unsure[i];
   }
   return any != 0;
-}
-
-double hand_of(const AntennaPattern& pattern) {
-  return pattern.polarization == PolarizationKind::kRightCircular ? 1.0 : -1.0;
 }
 
 void fill(std::span<const PoseRef> tags, Work& work) {

@@ -8,6 +8,7 @@
 #include "tagfield/base/lane_math.h"
 #include "tagfield/base/random.h"
 #include "tagfield/base/units.h"
+#include "tagfield/channel/path_gains.h"
 
 namespace tagfield {
 namespace {
@@ -86,17 +87,19 @@ void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images,
                Gain& gain) {
   const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
   const double k = view.carrier.wave_number;
-  const auto left = [&](const RadioPath& path, const RadioEnd& from, const RadioEnd& to) {
-    const Complex alone = path_gain(path, from, to, view.world, view.carrier, effects);
-    if (view.bodies.empty()) return alone;
-    return alone *
-           past_bodies(view.bodies, path, from.X_WA.translation, to.X_WA.translation, view.carrier);
+  thread_local std::vector<Complex> gains;
+  const auto set_gains = [&](const RadioEnd& from, const RadioEnd& to) {
+    gains.resize(paths.size());
+    path_gains(paths, from, to, view.world, view.carrier, effects, gains);
+    for (std::size_t i = 0; i < paths.size() && !view.bodies.empty(); ++i) {
+      gains[i] *= past_bodies(view.bodies, paths[i], from.X_WA.translation, to.X_WA.translation,
+                              view.carrier);
+    }
   };
   if (tag.images != nullptr) {
     trace_paths(view.world.scene, *tag.images, antenna.X_WA.translation, view.tracing, paths);
-    for (const RadioPath& path : paths) {
-      gain.add(left(path, at_tag, antenna), -path.arrival_W, k);
-    }
+    set_gains(at_tag, antenna);
+    for (std::size_t i = 0; i < paths.size(); ++i) gain.add(gains[i], -paths[i].arrival_W, k);
     return;
   }
   const Vector3d& p_WT = tag.X_WT.translation;
@@ -105,9 +108,8 @@ void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images,
   } else {
     trace_paths(view.world.scene, *images, p_WT, view.tracing, paths);
   }
-  for (const RadioPath& path : paths) {
-    gain.add(left(path, antenna, at_tag), path.departure_W, k);
-  }
+  set_gains(antenna, at_tag);
+  for (std::size_t i = 0; i < paths.size(); ++i) gain.add(gains[i], paths[i].departure_W, k);
 }
 
 Gain gain_alone(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
