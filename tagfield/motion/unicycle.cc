@@ -18,14 +18,21 @@ WheelSpeeds wheel_speeds(const DriveGeometry& drive, const BodyVelocity& velocit
           (velocity.forward + half_difference) / drive.wheel_radius_m};
 }
 
-PlanarPose advance(const PlanarPose& pose, const BodyVelocity& velocity, double seconds) {
+Arc arc_of(const BodyVelocity& velocity, double seconds) {
   const double turned = velocity.turn * seconds;
-  // Chord of the arc: length v·t·sin(θ/2)/(θ/2), along the mean heading.
+  // Chord of the arc: length v·t·sin(θ/2)/(θ/2).
   const double half = turned / 2.0;
   const double shortening = std::abs(half) < 1e-6 ? 1.0 - half * half / 6.0 : sine(half) / half;
-  const double chord = velocity.forward * seconds * shortening;
-  return {pose.x + chord * cosine(pose.yaw + half), pose.y + chord * sine(pose.yaw + half),
-          pose.yaw + turned};
+  return {velocity.forward * seconds * shortening, turned};
+}
+
+PlanarPose advance(const PlanarPose& pose, const Arc& arc) {
+  const auto [s, c] = sine_cosine(pose.yaw + arc.turned_rad / 2.0);
+  return {pose.x + arc.chord_m * c, pose.y + arc.chord_m * s, pose.yaw + arc.turned_rad};
+}
+
+PlanarPose advance(const PlanarPose& pose, const BodyVelocity& velocity, double seconds) {
+  return advance(pose, arc_of(velocity, seconds));
 }
 
 }  // namespace tagfield

@@ -45,7 +45,16 @@ BodyVelocity body_velocity(const DriveGeometry& drive, const WheelSpeeds& wheels
 /// Wheel speeds that give `velocity`: the inverse of body_velocity.
 WheelSpeeds wheel_speeds(const DriveGeometry& drive, const BodyVelocity& velocity);
 
-/// Eq. (6) integrated over `seconds` of constant wheel speeds: an arc, exactly.
+/// The arc that a robot drives with constant wheel speeds.
+struct Arc {
+  double chord_m = 0.0;  ///< Between its ends, along the mean heading.
+  double turned_rad = 0.0;
+};
+Arc arc_of(const BodyVelocity& velocity, double seconds);
+
+/// Eq. (6) integrated along an arc, exactly.
+PlanarPose advance(const PlanarPose& pose, const Arc& arc);
+/// Same, over `seconds` of constant wheel speeds.
 PlanarPose advance(const PlanarPose& pose, const BodyVelocity& velocity, double seconds);
 
 /// The pose in the world, on the floor.

@@ -18,9 +18,14 @@ DistanceWindow::DistanceWindow(const OccupancyGrid& map,
   window_.origin = map.origin + map.resolution_m * low.cast<double>();
   std::vector<std::uint8_t> sources(static_cast<std::size_t>(window_.width) *
                                     static_cast<std::size_t>(window_.height));
-  for (int y = 0; y < window_.height; ++y) {
-    for (int x = 0; x < window_.width; ++x) {
-      sources[window_.index(x, y)] = is_occupied(map.at(low.x() + x, low.y() + y)) ? 1 : 0;
+  // The part of the window that is on the map.
+  const Eigen::Vector2i begin = (-low).cwiseMax(0);
+  const int end_x = std::min(window_.width, map.width - low.x());
+  const int end_y = std::min(window_.height, map.height - low.y());
+  for (int y = begin.y(); y < end_y; ++y) {
+    for (int x = begin.x(); x < end_x; ++x) {
+      const std::int8_t cell = map.cells[map.index(low.x() + x, low.y() + y)];
+      sources[window_.index(x, y)] = is_occupied(cell) ? 1 : 0;
     }
   }
   for (const Eigen::Vector2d& point : points_M) {

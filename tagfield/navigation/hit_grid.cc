@@ -82,14 +82,17 @@ void HitGrid::count_passed(const CellMarks& marks, int patch_x, int patch_y) {
   const int y0 = std::max(patch_y * kPatchCells, marks.y0);
   const int y1 = std::min((patch_y + 1) * kPatchCells, marks.y0 + marks.height);
   for (int y = y0; y < y1; ++y) {
-    const char* marked = marks.row(y) + (x0 - marks.x0);
-    for (int x = x0; x < x1; ++x, ++marked) {
-      if (*marked == 0) continue;
-      if (patch == nullptr) patch = &patch_to_change(patch_x, patch_y);
-      HitCell& cell = (*patch)[place_in_patch<kPatchBits>(x, y)];
-      if (cell.last == scans_) continue;
-      cell.last = scans_;
-      ++cell.passed;
+    const char* const begin = marks.row(y) + (x0 - marks.x0);
+    const char* const end = begin + std::max(0, x1 - x0);
+    const char* const first = std::find(begin, end, 1);
+    if (first == end) continue;
+    if (patch == nullptr) patch = &patch_to_change(patch_x, patch_y);
+    HitCell* cell = &(*patch)[place_in_patch<kPatchBits>(x0 + static_cast<int>(first - begin), y)];
+    // Without branches, since marks are scattered between the beams.
+    for (const char* marked = first; marked != end; ++marked, ++cell) {
+      const bool is_new = (*marked != 0) & (cell->last != scans_);
+      cell->last = is_new ? scans_ : cell->last;
+      cell->passed += is_new ? 1U : 0U;
     }
   }
 }
@@ -148,11 +151,14 @@ void HitGrid::pass(const Eigen::Vector2d& from, const std::vector<Ray>& rays) {
   }
   // Rounding may lead a ray one cell beyond its end.
   CellMarks marks(low - Eigen::Vector2i::Ones(), high + Eigen::Vector2i::Ones());
+  std::vector<CellMarks::Ray> in_cells;
+  in_cells.reserve(rays.size());
   for (const Ray& ray : rays) {
     const double length = (ray.to - from).norm();
     if (!(length > ray.stop_short_m)) continue;
-    marks.mark_ray(from / resolution_m_, ray.to / resolution_m_, 1.0 - ray.stop_short_m / length);
+    in_cells.push_back({ray.to / resolution_m_, 1.0 - ray.stop_short_m / length});
   }
+  marks.mark_rays(from / resolution_m_, in_cells);
   for (int y = low.y() >> kPatchBits; y <= high.y() >> kPatchBits; ++y) {
     for (int x = low.x() >> kPatchBits; x <= high.x() >> kPatchBits; ++x) count_passed(marks, x, y);
   }

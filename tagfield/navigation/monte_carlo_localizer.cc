@@ -337,8 +337,11 @@ std::vector<std::pair<double, PoseEstimate>> MonteCarloLocalizer::Impl::settled(
 /// Whether the line from `from` to `to` crosses an occupied cell before it is near its end.
 bool MonteCarloLocalizer::Impl::crosses_wall(const Eigen::Vector2d& from,
                                              const Eigen::Vector2d& to) const {
-  const double length = (to - from).norm() - kCrossing_m;
-  const Eigen::Vector2d direction = (to - from).normalized();
+  const Eigen::Vector2d all = to - from;
+  const double whole = all.norm();
+  const double length = whole - kCrossing_m;
+  if (!(length > 0.0)) return false;
+  const Eigen::Vector2d direction = all / whole;
   for (double way = 0.0; way < length;) {
     const Eigen::Vector2i cell = map.cell_of(from + way * direction);
     if (!map.contains(cell.x(), cell.y())) return false;

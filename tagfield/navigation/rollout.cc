@@ -21,18 +21,23 @@ constexpr double kMaxUnsure = 0.25;
 struct ReachedWalk {
   PlanarPose pose;
   BodyVelocity velocity;
-  BodyVelocity mean;  ///< Of the last step.
+  BodyVelocity mean{};  ///< Of the last step,
+  Arc arc{};            ///< which was this.
   double t = 0.0;
 
   /// Returns false, without a step, once the manoeuvre is over and the robot stands.
   bool step(const Manoeuvre& manoeuvre, const SpeedLimits& limits) {
     const BodyVelocity next = limited(target_at(manoeuvre, t), velocity, limits, kStep);
-    mean = {0.5 * (velocity.forward + next.forward), 0.5 * (velocity.turn + next.turn)};
+    const BodyVelocity now{0.5 * (velocity.forward + next.forward),
+                           0.5 * (velocity.turn + next.turn)};
+    // Most steps are like the one before.
+    if (now.forward != mean.forward || now.turn != mean.turn) arc = arc_of(now, kStep);
+    mean = now;
     const bool is_over = t > manoeuvre.first_s + manoeuvre.second_s - kAlmost;
     if (is_over && mean.forward == 0.0 && mean.turn == 0.0) return false;
     velocity = next;
     t += kStep;
-    pose = advance(pose, mean, kStep);
+    pose = advance(pose, arc);
     return true;
   }
 };
@@ -101,7 +106,7 @@ Outcome Rollouts::outcome(const Manoeuvre& manoeuvre) const {
   Outcome result;
   result.end_clear_m = around_.standing->at(position_of(pose_M_));
   result.clear_m = result.end_clear_m;
-  ReachedWalk walk{pose_M_, present_, {}, 0.0};
+  ReachedWalk walk{pose_M_, present_};
   while (walk.t < kHorizon && walk.step(manoeuvre, settings_.limits)) {
     check(walk.pose, walk.mean, walk.t, result);
   }
@@ -112,7 +117,7 @@ Outcome Rollouts::outcome(const Manoeuvre& manoeuvre) const {
 }
 
 PlanarPose Rollouts::after(const Manoeuvre& manoeuvre, double seconds) const {
-  ReachedWalk walk{pose_M_, present_, {}, 0.0};
+  ReachedWalk walk{pose_M_, present_};
   while (walk.t < seconds - kAlmost && walk.step(manoeuvre, settings_.limits)) {
   }
   return walk.pose;

@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/lane_math.h"
+#include "tagfield/base/lanes.h"
 #include "tagfield/base/trigonometry.h"
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
 namespace {
+
+constexpr double kMaxTurn_rad = 1e5;  // limit of lane_sine_cosine()
 
 Eigen::Vector2d polar(double angle_rad, double range_m) {
   return {range_m * cosine(angle_rad), range_m * sine(angle_rad)};
@@ -34,12 +38,53 @@ void find_blind(const LaserScan& scan, ScanInMap& seen) {
   }
 }
 
-/// Corrected position of a point that was seen `later_s` after the robot was at `pose_M` but
-/// computed as if seen from there.
-Eigen::Vector2d carried(const PlanarPose& pose_M, const BodyVelocity& velocity, double later_s,
-                        const Eigen::Vector2d& point_M) {
-  const PlanarPose in_robot = between(pose_M, {point_M.x(), point_M.y(), 0.0});
-  return transformed(advance(pose_M, velocity, later_s), {in_robot.x, in_robot.y});
+/// Points that were computed as if seen from where the robot was at `pose_M`, and how much later
+/// they were seen.
+struct LatePoints {
+  std::vector<double> x_M;
+  std::vector<double> y_M;
+  std::vector<double> later_s;
+};
+
+/// Corrects the points' positions for the arc that the robot has driven since: transformed() of
+/// between() by advance(), for all points in lanes, with the same bits. `later_s` and the robot's
+/// yaw must be in the domain of lane_sine_cosine().
+inline void carry(const PlanarPose& pose_M, const SineCosine& heading, const BodyVelocity& velocity,
+                  LatePoints& points) {
+  const std::size_t count = points.x_M.size();
+  double* const x_M = points.x_M.data();
+  double* const y_M = points.y_M.data();
+  const double* const later_s = points.later_s.data();
+  const double s = heading.sine;
+  const double c = heading.cosine;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < count; ++i) {
+    const double dx = x_M[i] - pose_M.x;
+    const double dy = y_M[i] - pose_M.y;
+    const double x_R = c * dx + s * dy;
+    const double y_R = -s * dx + c * dy;
+    const double turned = velocity.turn * later_s[i];
+    const double half = turned / 2.0;
+    const bool is_straight = std::abs(half) < 1e-6;
+    const double bend = lane_sine_cosine(half).sine / choose(is_straight, 1.0, half);
+    const double shortening = choose(is_straight, 1.0 - half * half / 6.0, bend);
+    const double chord = velocity.forward * later_s[i] * shortening;
+    const SineCosine mean = lane_sine_cosine(pose_M.yaw + half);
+    const SineCosine end = lane_sine_cosine(pose_M.yaw + turned);
+    x_M[i] = pose_M.x + chord * mean.cosine + end.cosine * x_R - end.sine * y_R;
+    y_M[i] = pose_M.y + chord * mean.sine + end.sine * x_R + end.cosine * y_R;
+  }
+}
+
+/// The same for each point by itself, whatever the angles.
+void carry_each(const PlanarPose& pose_M, const BodyVelocity& velocity, LatePoints& points) {
+  for (std::size_t i = 0; i < points.x_M.size(); ++i) {
+    const PlanarPose in_robot = between(pose_M, {points.x_M[i], points.y_M[i], 0.0});
+    const Eigen::Vector2d p_M =
+        transformed(advance(pose_M, velocity, points.later_s[i]), {in_robot.x, in_robot.y});
+    points.x_M[i] = p_M.x();
+    points.y_M[i] = p_M.y();
+  }
 }
 
 void place_returns(const LaserScan& scan, const PlanarPose& pose_M, const BodyVelocity& velocity,
@@ -49,15 +94,33 @@ void place_returns(const LaserScan& scan, const PlanarPose& pose_M, const BodyVe
   const double first_angle = seen.q_ML.yaw + scan.first_angle_rad;
   Eigen::Vector2d direction_M(cosine(first_angle), sine(first_angle));
   const Eigen::Matrix2d turn = rotation_in_plane(scan.angle_step_rad);
+  LatePoints points;
+  for (std::vector<double>* const column : {&points.x_M, &points.y_M, &points.later_s}) {
+    column->reserve(scan.ranges_m.size());
+  }
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     if (beam_of(scan, scan.ranges_m[i]) == Beam::kReturn) {
       const auto range = static_cast<double>(scan.ranges_m[i]);
-      const double later_s = static_cast<double>(i) * interval_s;
       const Eigen::Vector2d point_M = position_of(seen.q_ML) + range * direction_M;
-      seen.returns.push_back(
-          {later_s > 0.0 ? carried(pose_M, velocity, later_s, point_M) : point_M, range, i});
+      points.x_M.push_back(point_M.x());
+      points.y_M.push_back(point_M.y());
+      points.later_s.push_back(static_cast<double>(i) * interval_s);
+      seen.returns.push_back({point_M, range, i});
     }
     direction_M = turn * direction_M;
+  }
+  if (!(interval_s > 0.0)) return;
+  const double most_s = static_cast<double>(scan.ranges_m.size()) * interval_s;
+  const double most_rad = std::abs(pose_M.yaw) + std::abs(velocity.turn) * most_s;
+  if (most_rad <= kMaxTurn_rad) {
+    in_lanes(instruction_sets().back(),
+             [&] { carry(pose_M, sine_cosine(pose_M.yaw), velocity, points); });
+  } else {
+    carry_each(pose_M, velocity, points);
+  }
+  // The first beam is not late.
+  for (std::size_t i = 0; i < seen.returns.size(); ++i) {
+    if (points.later_s[i] > 0.0) seen.returns[i].point_M = {points.x_M[i], points.y_M[i]};
   }
 }
 

@@ -40,7 +40,8 @@ void add_solid(Triangles& triangles, const Collision& collision, std::size_t ind
   for (const auto& [a, b, c] : mesh.triangles) {
     triangles.indices.push_back({first + a, first + b, first + c});
     const Eigen::Vector3d& p = mesh.vertices[a];
-    triangles.normals.push_back((mesh.vertices[b] - p).cross(mesh.vertices[c] - p).normalized());
+    triangles.areas.emplace_back((mesh.vertices[b] - p).cross(mesh.vertices[c] - p));
+    triangles.normals.push_back(triangles.areas.back().normalized());
   }
 }
 
@@ -53,7 +54,7 @@ void require_success(RTCDevice device) {
 /// The intersection of a line with a triangle's plane.
 struct PlanePoint {
   double distance;  ///< Along the line from `origin` [m]; not finite if parallel to the plane.
-  double inside;    ///< Smallest barycentric coordinate: negative outside the triangle.
+  bool is_in;       ///< In the triangle, or hardly outside.
 };
 
 PlanePoint meet(const Triangles& triangles, std::size_t triangle, const Eigen::Vector3d& origin,
@@ -62,12 +63,14 @@ PlanePoint meet(const Triangles& triangles, std::size_t triangle, const Eigen::V
   const Eigen::Vector3d& a = triangles.vertices[i];
   const Eigen::Vector3d to_b = triangles.vertices[j] - a;
   const Eigen::Vector3d to_c = triangles.vertices[k] - a;
-  const Eigen::Vector3d normal = to_b.cross(to_c);
+  const Eigen::Vector3d& normal = triangles.areas[triangle];
+  const double square = normal.squaredNorm();
   const double distance = normal.dot(a - origin) / normal.dot(direction);
   const Eigen::Vector3d p = origin + distance * direction - a;
-  const double of_b = normal.dot(p.cross(to_c)) / normal.squaredNorm();
-  const double of_c = normal.dot(to_b.cross(p)) / normal.squaredNorm();
-  return {distance, std::min({of_b, of_c, 1.0 - of_b - of_c})};
+  // Barycentric coordinates, times `square`.
+  const double of_b = normal.dot(p.cross(to_c));
+  const double of_c = normal.dot(to_b.cross(p));
+  return {distance, std::min({of_b, of_c, square - of_b - of_c}) > -kRimTolerance * square};
 }
 
 /// Filter that Embree calls for each hit that it would accept. Its single precision fails where a
@@ -87,7 +90,7 @@ void refine(const RTCFilterFunctionNArguments* hits) {
                                     RTCRayN_dir_y(hits->ray, count, i),
                                     RTCRayN_dir_z(hits->ray, count, i));
     const auto point = meet(triangles, RTCHitN_primID(hits->hit, count, i), origin, direction);
-    if (point.distance >= 0.0 && point.inside > -kRimTolerance) {
+    if (point.distance >= 0.0 && point.is_in) {
       RTCRayN_tfar(hits->ray, count, i) = static_cast<float>(point.distance);
     } else {
       hits->valid[i] = 0;

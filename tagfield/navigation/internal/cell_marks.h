@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 namespace tagfield {
@@ -16,10 +17,15 @@ struct CellMarks {
   int x0, y0, width, height;
   std::vector<char> marked;
 
-  /// Marks the cells that the ray from `from` to `to` enters before the fraction `last` ≤ 1 of its
-  /// length, in units of cells (Amanatides and Woo, 1987). `from` and `to` must lie in cells whose
-  /// neighbours are all among these, since rounding may lead one cell too far.
-  void mark_ray(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double last);
+  /// A ray in units of cells; it counts before the fraction `last` ≤ 1 of its length.
+  struct Ray {
+    Eigen::Vector2d to;
+    double last = 1.0;
+  };
+
+  /// Marks the cells that rays from `from` enter (Amanatides and Woo, 1987). All ends must lie in
+  /// cells whose neighbours are all among these, since rounding may lead one cell too far.
+  void mark_rays(const Eigen::Vector2d& from, std::span<const Ray> rays);
 
   /// Row y, beginning with cell (x0, y).
   [[nodiscard]] const char* row(int y) const { return marked.data() + place(x0, y); }

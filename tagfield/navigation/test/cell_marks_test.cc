@@ -40,7 +40,8 @@ RC_GTEST_PROP(CellMarks, AreTheCellsThatTheRayClips, ()) {
   const double last = 1e-2 * *rc::gen::inRange(1, 101);
   RC_PRE(from != to);
   CellMarks marks({-10, -10}, {10, 10});
-  marks.mark_ray(from, to, last);
+  const CellMarks::Ray ray{to, last};
+  marks.mark_rays(from, {&ray, 1});
   for (int y = -10; y <= 10; ++y) {
     for (int x = -10; x <= 10; ++x) {
       const auto [begin, end] = share_within(from, to, x, y);
@@ -53,10 +54,25 @@ RC_GTEST_PROP(CellMarks, AreTheCellsThatTheRayClips, ()) {
 
 TEST(CellMarks, ARayAlongARowMarksItAlone) {
   CellMarks marks({0, 0}, {5, 2});
-  marks.mark_ray({1.5, 1.5}, {4.5, 1.5}, 1.0);
+  const CellMarks::Ray ray{{4.5, 1.5}, 1.0};
+  marks.mark_rays({1.5, 1.5}, {&ray, 1});
   const std::string expected("\0\1\1\1\1\0", 6);
   EXPECT_EQ(std::string(marks.row(1), 6), expected);
   EXPECT_EQ(std::count(marks.marked.begin(), marks.marked.end(), 1), 4);
+}
+
+RC_GTEST_PROP(CellMarks, OfManyRaysAreThoseOfEachRay, ()) {
+  const auto place = [] { return 1e-3 * *rc::gen::inRange(-9000, 9000); };
+  const Eigen::Vector2d from(place(), place());
+  std::vector<CellMarks::Ray> rays;
+  for (int count = *rc::gen::inRange(1, 30); count > 0; --count) {
+    rays.push_back({{place(), place()}, 1e-2 * *rc::gen::inRange(1, 101)});
+  }
+  CellMarks together({-10, -10}, {10, 10});
+  together.mark_rays(from, rays);
+  CellMarks each({-10, -10}, {10, 10});
+  for (const CellMarks::Ray& ray : rays) each.mark_rays(from, {&ray, 1});
+  RC_ASSERT(together.marked == each.marked);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ struct Triangles {
   std::vector<Eigen::Vector3d> vertices;  ///< [m, world]
   std::vector<std::array<std::uint32_t, 3>> indices;
   std::vector<Eigen::Vector3d> normals;   ///< Unit vectors; zero for degenerate triangles.
+  std::vector<Eigen::Vector3d> areas;     ///< The same, as long as twice the triangle's area [m²].
   std::vector<std::uint32_t> collisions;  ///< The collision of each triangle.
   std::vector<std::uint32_t> firsts;      ///< The first triangle of each collision.
 };
