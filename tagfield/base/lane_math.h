@@ -194,6 +194,36 @@ inline double lane_exp(double x) {
   return double_of_bits(bits_of(1.0 + (r + r * r * e)) + (bits_of(shifted) << 52U));
 }
 
+/// eˣ for x ≤ 80, within 2 units in the last place; e⁻⁸⁰ for x < −80.
+inline float lane_exp(float x) {
+  constexpr float kLn2High = 0x1.62e4p-1f;  // ln 2 to 15 bits, and the remainder.
+  constexpr float kLn2Low = 0x1.7f7d1cp-20f;
+  constexpr float kToWhole = 0x1.8p23f;
+  constexpr float kLog2E = 0x1.715476p+0f;
+  const float bounded = x < -80.0f ? -80.0f : x;
+  const float shifted = bounded * kLog2E + kToWhole;
+  const float k = shifted - kToWhole;
+  const float r = (bounded - k * kLn2High) - k * kLn2Low;
+  // Taylor series of (eʳ − 1 − r)/r² for |r| < 0.35; the truncation error is below 2⁻²⁸.
+  float e = 1.0f / 40320.0f;
+  e = e * r + 1.0f / 5040.0f;
+  e = e * r + 1.0f / 720.0f;
+  e = e * r + 1.0f / 120.0f;
+  e = e * r + 1.0f / 24.0f;
+  e = e * r + 1.0f / 6.0f;
+  e = e * r + 0.5f;
+  const float of_r = 1.0f + (r + r * r * e);
+  // Multiply by 2ᵏ by adding k to the exponent bits.
+  std::uint32_t bits = 0;
+  std::uint32_t bits_of_k = 0;
+  std::memcpy(&bits, &of_r, sizeof bits);
+  std::memcpy(&bits_of_k, &shifted, sizeof bits_of_k);
+  bits += bits_of_k << 23U;
+  float result = 0.0f;
+  std::memcpy(&result, &bits, sizeof result);
+  return result;
+}
+
 struct SineCosine {
   double sine;
   double cosine;

@@ -12,6 +12,7 @@
 
 #include "tagfield/base/median.h"
 #include "tagfield/base/units.h"
+#include "tagfield/localization/circle_density.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/phase_curves/phase_following.h"
 #include "tagfield/localization/phase_noise.h"
@@ -19,14 +20,9 @@
 namespace tagfield {
 namespace {
 
-/// Values of δ on a circle.
-constexpr Eigen::Index kBins = 128;
-using OnCircle = Eigen::Array<double, kBins, 1>;
-using SingleOnCircle = Eigen::Array<float, kBins, 1>;
-
 /// Standard deviations are at least twice the spacing of the bins, so that sums stand for
 /// integrals: 0.1 rad, 1.4 mm of distance.
-constexpr double kLeastSigma = 2.0 * kTwoPi / static_cast<double>(kBins);
+constexpr double kLeastSigma = 2.0 * kTwoPi / static_cast<double>(kCircleBins);
 /// Of what tags share; steps of a random walk over the whole circle would be 1.8 rad.
 constexpr double kSharedSigmas[] = {0.05, 0.1, 0.2, 0.4, 0.8};
 constexpr std::size_t kSharedCount = std::size(kSharedSigmas);
@@ -36,14 +32,6 @@ constexpr double kJumpFalseAlarms = 1e-4;  ///< Per survey.
 constexpr std::size_t kMostJumps = 20;
 constexpr double kHardly = 1e-300;  ///< Instead of 0, where the exponential function is.
 
-/// A difference from an expected phase, of standard deviation `sigma`, that is arbitrary with a
-/// probability of `arbitrary`.
-struct Difference {
-  float rad = 0.0f;
-  float sigma = 0.0f;
-  float arbitrary = 0.0f;
-};
-
 /// The two ways in which a change is expected.
 enum Way : std::size_t { kByPoses, kByNeighbours, kWays };
 
@@ -51,7 +39,7 @@ enum Way : std::size_t { kByPoses, kByNeighbours, kWays };
 struct Change {
   std::uint32_t tag = 0;
   std::uint32_t from = 0, to = 0;
-  Difference by[kWays];
+  PhaseDifference by[kWays];
 };
 
 /// The reads of one antenna.
@@ -73,21 +61,11 @@ double density_at(double x, double sigma) {
 }
 
 OnCircle angles() {
-  return OnCircle::LinSpaced(0.0, static_cast<double>(kBins - 1)) * (kTwoPi / kBins);
-}
-
-/// ln f(d − δ) for all δ. In single precision, as there are two for each read.
-OnCircle log_density(const Difference& of, const SingleOnCircle& angles) {
-  constexpr auto kTurn = static_cast<float>(kTwoPi);
-  SingleOnCircle off = angles - of.rad;
-  off -= kTurn * (off * (1.0f / kTurn)).round();
-  const float scale = (1.0f - of.arbitrary) / (of.sigma * std::sqrt(kTurn));
-  off = (scale * (-0.5f * (off / of.sigma).square()).exp() + of.arbitrary / kTurn).log();
-  return off.cast<double>();
+  return OnCircle::LinSpaced(0.0, static_cast<double>(kCircleBins - 1)) * (kTwoPi / kCircleBins);
 }
 
 /// Probability that a difference is arbitrary if a share of all are.
-double is_arbitrary(const Difference& of, double share) {
+double is_arbitrary(const PhaseDifference& of, double share) {
   const double any = share / kTwoPi;
   return any / (any + (1.0 - share) * density_at(of.rad, of.sigma));
 }
@@ -282,11 +260,7 @@ struct Likelihoods {
 class Search {
  public:
   explicit Search(Way way)
-      : way_(way),
-        angles_(angles()),
-        single_angles_(angles_.cast<float>()),
-        sines_(angles_.sin()),
-        cosines_(angles_.cos()) {
+      : way_(way), angles_(angles()), sines_(angles_.sin()), cosines_(angles_.cos()) {
     for (std::size_t k = 0; k < kSharedCount; ++k) {
       weights_[k] = weights_of(kSharedSigmas[k], angles_);
     }
@@ -341,7 +315,7 @@ class Search {
   }
 
   [[nodiscard]] OnCircle values_of(const Change& change) const {
-    return log_density(change.by[way_], single_angles_);
+    return log_density(change.by[way_]);
   }
 
   /// Of an interval with this likelihood of δ.
@@ -372,7 +346,6 @@ class Search {
 
   Way way_;
   OnCircle angles_;
-  SingleOnCircle single_angles_;
   OnCircle sines_, cosines_;
   OnCircle weights_[kSharedCount];
 };

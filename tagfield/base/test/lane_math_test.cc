@@ -81,6 +81,24 @@ TEST(LaneExp, IsTheExponentialWithinTwoUnits) {
   EXPECT_EQ(lane_exp(-1e9), lane_exp(-700.0));
 }
 
+TEST(LaneExp, IsTheExponentialWithinTwoUnitsInSinglePrecision) {
+  RandomStream stream(4, Purpose::kReadNoise);
+  constexpr float kMost = std::numeric_limits<float>::infinity();
+  double worst = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    for (const double at : {any_in(stream, -80.0, 80.0), any_in(stream, -1.0, 1.0)}) {
+      const auto x = static_cast<float>(at);
+      const double exact = std::exp(static_cast<double>(x));
+      const auto nearest = static_cast<float>(exact);
+      const double unit = static_cast<double>(std::nextafter(nearest, kMost) - nearest);
+      worst = std::max(worst, std::abs(static_cast<double>(lane_exp(x)) - exact) / unit);
+    }
+  }
+  EXPECT_LT(worst, 2.0);
+  EXPECT_EQ(lane_exp(0.0f), 1.0f);
+  EXPECT_EQ(lane_exp(-1e9f), lane_exp(-80.0f));
+}
+
 TEST(LaneSineCosine, AreThoseWithinOneUnit) {
   RandomStream stream(2, Purpose::kReadNoise);
   double worst = 0.0;
@@ -216,7 +234,7 @@ std::vector<double> all_in_lanes(InstructionSet set, const std::vector<std::uint
       out[6 * i + 2] = lane_round(40.0 * lane_log10(std::abs(pair.first) + 1e-300));
       out[6 * i + 3] = lane_wrap_to_two_pi(lane_remainder(1e5 * std::abs(pair.second), 0.173));
       const auto single = static_cast<float>(std::abs(pair.first) + 1e-30);
-      out[6 * i + 4] = static_cast<double>(lane_log(single));
+      out[6 * i + 4] = static_cast<double>(lane_log(single) + lane_exp(-single));
       out[6 * i + 5] = lane_arc_tangent(pair.first, pair.second);
     }
   });
