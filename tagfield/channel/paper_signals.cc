@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "tagfield/base/lane_math.h"
@@ -65,9 +66,20 @@ void add_rssis(const PaperModel& model, const PaperLinks& links, const PaperNois
 }
 
 /// Whether a link is in the domain of lane_remainder() and lane_wrap_to_two_pi().
-bool is_usual(double distance_m, double half_wavelength, double noise_rad) {
-  return distance_m >= kMinNormal && half_wavelength >= 0x1p-900 &&
-         distance_m < 0x1p20 * half_wavelength && std::abs(noise_rad) < kTwoPi;
+inline bool is_usual(double distance_m, double half_wavelength, double noise_rad) {
+  return (distance_m >= kMinNormal) & (half_wavelength >= 0x1p-900) &
+         (distance_m < 0x1p20 * half_wavelength) & (std::abs(noise_rad) < kTwoPi);
+}
+
+/// Not 0 if there is an unusual link.
+inline std::uint64_t any_unusual(double half_wavelength, const PaperLinks& links,
+                                 const PaperNoise& noise) {
+  std::uint64_t any = 0;
+  for (std::size_t i = 0; i < links.distance_m.size(); ++i) {
+    any |= static_cast<std::uint64_t>(
+        !is_usual(links.distance_m[i], half_wavelength, noise.phase_rad[i]));
+  }
+  return any;
 }
 
 void mend_unusual(const PaperModel& model, const PaperLinks& links, const PaperNoise& noise,
@@ -94,11 +106,13 @@ void paper_signals(const PaperModel& model, const PaperLinks& links, std::span<d
     for (std::size_t i = 0; i < part.optional_rad.size(); ++i) {
       noise.phase_rad[i] += wrap_to_two_pi(part.optional_rad[i]);
     }
+    std::uint64_t unusual = 0;
     in_lanes(set, [&] {
       add_phases(model, part, noise, phases);
       add_rssis(model, part, noise, rssi_dbm.subspan(begin, count));
+      unusual = any_unusual(0.5 * wavelength(model.frequency_hz), part, noise);
     });
-    mend_unusual(model, part, noise, phases);
+    if (unusual != 0) mend_unusual(model, part, noise, phases);
   }
 }
 

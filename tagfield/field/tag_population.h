@@ -104,12 +104,43 @@ struct TagReply {
   std::optional<double> doppler_hz;
 };
 
+/// Tags near an antenna, as columns of the same length, in ascending order of slots.
+struct NearTags {
+  std::vector<std::uint32_t> slots;
+  std::vector<std::uint64_t> keys;  ///< stream_key() of the IDs.
+  std::vector<double> distances_m;  ///< From the antenna.
+};
+
+/// The tags near an antenna, which stay the same as long as neither it nor any tag moves.
+struct TagsInRange {
+  const TagPopulation* tags = nullptr;
+  std::uint64_t version = 0;  ///< TagPopulation::version().
+  Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();
+  double reach_m = -1.0;  ///< At least the antenna's range, which may be perturbed.
+  NearTags all;           ///< Within `reach_m`.
+  double farthest_m = 0.0;
+  NearTags part;  ///< Workspace.
+};
+
+/// Reads of one antenna at one time in the paper's model, as columns of the same length.
+struct PaperReads {
+  std::span<const std::uint32_t> slots;
+  std::span<const double> phases_rad;
+  std::span<const double> rssis_dbm;
+  std::span<const double> distances_m;
+  double frequency_hz = 0.0;
+};
+
 /// The reads of the antenna's update at `stamp` with the antenna at `p_WA` [m]: of all tags within
 /// perturbed_range(), in ascending order of slots, a few hundred per call of `take`. Each equals
-/// the result of read_tag() for that tag. None if `p_WA` is not finite.
+/// the result of read_tag() for that tag. None if `p_WA` is not finite. `near` is the antenna's, of
+/// the last call.
 void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,
-               std::uint64_t seed, const TagPopulation& tags,
-               const std::function<void(std::span<const TagReply>)>& take);
+               std::uint64_t seed, const TagPopulation& tags, TagsInRange& near,
+               const std::function<void(const PaperReads&)>& take);
+
+/// `read` in the form of a reply.
+TagReply to_reply(const PaperReads& reads, std::size_t i, Time stamp);
 
 /// The complete record of a reply.
 TagRead to_read(const AntennaParameters& antenna, const std::string& tag, const TagReply& reply);

@@ -71,6 +71,28 @@ void ReadDelivery::tell_together(const AntennaParameters& antenna, Time stamp,
     distance_rows_[i].tag = row.tag;
     distance_rows_[i].distance_m = reply.distance_m;
   }
+  tell_rows(antenna, stamp);
+}
+
+/// Same, directly from columns.
+void ReadDelivery::tell_together(const AntennaParameters& antenna, Time stamp,
+                                 const TagPopulation& tags, const PaperReads& reads) {
+  rows_.resize(reads.slots.size());
+  distance_rows_.resize(reads.slots.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    ReadBatch::Row& row = rows_[i];
+    row.tag = &tags.id(reads.slots[i]);
+    row.frequency_hz = reads.frequency_hz;
+    row.phase_rad = reads.phases_rad[i];
+    row.rssi_dbm = reads.rssis_dbm[i];
+    row.doppler_hz.reset();
+    distance_rows_[i].tag = row.tag;
+    distance_rows_[i].distance_m = reads.distances_m[i];
+  }
+  tell_rows(antenna, stamp);
+}
+
+void ReadDelivery::tell_rows(const AntennaParameters& antenna, Time stamp) const {
   for (const auto& listener : outlets_.truth) {
     listener->on_distances({stamp, antenna.name, distance_rows_});
   }
@@ -88,19 +110,27 @@ void ReadDelivery::tell(Time stamp, const Reads& reads) {
   }
 }
 
+TagsInRange& ReadDelivery::in_range_of(const std::shared_ptr<const FieldAntenna>& antenna) {
+  const auto found = in_range_.find(antenna);
+  if (found != in_range_.end()) return found->second;
+  // Antennas that nobody else knows any more.
+  std::erase_if(in_range_, [](const auto& entry) { return entry.first.use_count() == 1; });
+  return in_range_[antenna];
+}
+
 void ReadDelivery::make(Time stamp, const Unmade& unmade,
-                        const std::function<void(std::span<const TagReply>)>& take) {
+                        const std::function<void(const PaperReads&)>& take) {
   const FieldAntenna& antenna = *unmade.antenna;
   read_tags(antenna.parameters, unmade.p_WA, stamp, antenna.seed, *unmade.tags,
-            [&](std::span<const TagReply> replies) {
-              reads_ += static_cast<std::int64_t>(replies.size());
-              take(replies);
+            in_range_of(unmade.antenna), [&](const PaperReads& reads) {
+              reads_ += static_cast<std::int64_t>(reads.slots.size());
+              take(reads);
             });
 }
 
 void ReadDelivery::tell(Time stamp, const Unmade& unmade) {
-  make(stamp, unmade, [&](std::span<const TagReply> replies) {
-    tell_together(unmade.antenna->parameters, stamp, *unmade.tags, replies);
+  make(stamp, unmade, [&](const PaperReads& reads) {
+    tell_together(unmade.antenna->parameters, stamp, *unmade.tags, reads);
   });
 }
 
@@ -148,18 +178,18 @@ bool ReadDelivery::is_kept(const Event& event, Time until) {
 
 /// Resolves the tags' IDs now, because their slots may belong to other tags by then.
 void ReadDelivery::keep(Event& event, std::vector<Event>& kept) {
-  const auto keep_all = [&](const FieldAntenna& antenna, const TagPopulation& tags,
-                            std::span<const TagReply> replies) {
-    for (const TagReply& reply : replies) {
-      const TagRead read = to_read(antenna.parameters, tags.id(reply.slot), reply);
-      kept.push_back({event.stamp, Read{read, reply.distance_m}});
-    }
+  const auto keep_one = [&](const FieldAntenna& antenna, const TagPopulation& tags,
+                            const TagReply& reply) {
+    const TagRead read = to_read(antenna.parameters, tags.id(reply.slot), reply);
+    kept.push_back({event.stamp, Read{read, reply.distance_m}});
   };
   if (const auto* const reads = std::get_if<Reads>(&event.what)) {
-    keep_all(*reads->antenna, *reads->tags, reads->replies);
+    for (const TagReply& reply : reads->replies) keep_one(*reads->antenna, *reads->tags, reply);
   } else if (const auto* const unmade = std::get_if<Unmade>(&event.what)) {
-    make(event.stamp, *unmade, [&](std::span<const TagReply> replies) {
-      keep_all(*unmade->antenna, *unmade->tags, replies);
+    make(event.stamp, *unmade, [&](const PaperReads& some) {
+      for (std::size_t i = 0; i < some.slots.size(); ++i) {
+        keep_one(*unmade->antenna, *unmade->tags, to_reply(some, i, event.stamp));
+      }
     });
   } else {
     kept.push_back(std::move(event));

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -98,10 +99,14 @@ class ReadDelivery {
   void tell(Time stamp, const Reads& reads);
   void tell(Time stamp, const Unmade& unmade);
   /// Generates reads and counts them, a few hundred per call of `take`.
-  void make(Time stamp, const Unmade& unmade,
-            const std::function<void(std::span<const TagReply>)>& take);
+  void make(Time stamp, const Unmade& unmade, const std::function<void(const PaperReads&)>& take);
+  TagsInRange& in_range_of(const std::shared_ptr<const FieldAntenna>& antenna);
   void tell_together(const AntennaParameters& antenna, Time stamp, const TagPopulation& tags,
                      std::span<const TagReply> replies);
+  void tell_together(const AntennaParameters& antenna, Time stamp, const TagPopulation& tags,
+                     const PaperReads& reads);
+  /// Delivers `rows_` and `distance_rows_`.
+  void tell_rows(const AntennaParameters& antenna, Time stamp) const;
   [[nodiscard]] static bool is_kept(const Event& event, Time until);
   void keep(Event& event, std::vector<Event>& kept);
   void tell(Time stamp, const Update& update) const;
@@ -114,6 +119,8 @@ class ReadDelivery {
   std::vector<Event> events_;
   bool is_sorted_ = true;
   std::int64_t reads_ = 0;
+  /// By antenna; kept with it, as another could have its address.
+  std::map<std::shared_ptr<const FieldAntenna>, TagsInRange> in_range_;
   std::vector<std::vector<TagReply>> spare_;       ///< Emptied buffers, for reuse.
   std::vector<ReadBatch::Row> rows_;               ///< Kept to save allocations.
   std::vector<DistanceBatch::Row> distance_rows_;  ///< Same.

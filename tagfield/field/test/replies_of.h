@@ -13,8 +13,9 @@ inline std::vector<TagReply> replies_of(const AntennaParameters& antenna,
                                         const Eigen::Vector3d& p_WA, Time stamp, std::uint64_t seed,
                                         const TagPopulation& tags) {
   std::vector<TagReply> all;
-  read_tags(antenna, p_WA, stamp, seed, tags, [&](std::span<const TagReply> some) {
-    all.insert(all.end(), some.begin(), some.end());
+  TagsInRange near;
+  read_tags(antenna, p_WA, stamp, seed, tags, near, [&](const PaperReads& some) {
+    for (std::size_t i = 0; i < some.slots.size(); ++i) all.push_back(to_reply(some, i, stamp));
   });
   return all;
 }
