@@ -306,7 +306,7 @@ LinkEnd link_end(const RadioEnd& end, const ChannelEffects& effects) {
 }
 
 /// u·axis for each direction u.
-inline void turn(const Vector3d axis, const Vectors& u, std::size_t count, Lane& along) {
+inline void turn(const Vector3d& axis, const Vectors& u, std::size_t count, Lane& along) {
   const double x = axis.x();
   const double y = axis.y();
   const double z = axis.z();
@@ -314,7 +314,7 @@ inline void turn(const Vector3d axis, const Vectors& u, std::size_t count, Lane&
 }
 
 /// Sets `part` to `sign` times the component of `axis` perpendicular to each direction u.
-inline void set_part(const Vector3d axis, double sign, const Lane& along, const Vectors& u,
+inline void set_part(const Vector3d& axis, double sign, const Lane& along, const Vectors& u,
                      std::size_t count, Vectors& part) {
   const double x = axis.x();
   const double y = axis.y();
