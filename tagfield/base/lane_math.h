@@ -229,7 +229,10 @@ struct SineCosine {
   double cosine;
 };
 
-/// Sine and cosine for |x| ≤ 10⁵ [rad], each within 1 unit in the last place.
+/// Domain of lane_sine_cosine().
+inline constexpr double kMaxLaneTurn_rad = 1e5;
+
+/// Sine and cosine for |x| ≤ kMaxLaneTurn_rad [rad], each within 1 unit in the last place.
 inline SineCosine lane_sine_cosine(double x) {
   // π/2 in three parts, so that integer multiples of the first two are exact.
   constexpr double kFirst = 0x1.921fb544p+0;

@@ -17,7 +17,7 @@ namespace tagfield {
 /// Sine and cosine of an angle [rad], within 1 unit in the last place for |x| ≤ 10⁵ and 10⁻¹⁶·|x|
 /// above. NaN if x is not finite.
 inline SineCosine sine_cosine(double x) {
-  if (std::abs(x) <= 1e5) return lane_sine_cosine(x);
+  if (std::abs(x) <= kMaxLaneTurn_rad) return lane_sine_cosine(x);
   if (!std::isfinite(x)) {
     return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
   }

@@ -212,7 +212,6 @@ template <class TakenAt>
 bool add_links(const Carrier& carrier, const TakenAt& taken_at, std::size_t count, const Work& work,
                StraightLinks& links, std::array<std::uint64_t, kStraightLinks>& unsure) {
   constexpr double kLeast = std::numeric_limits<double>::min();
-  constexpr double kMaxTurn_rad = 1e5;  // limit of lane_sine_cosine()
   const double at_a_metre = carrier.lambda_m / (4.0 * kPi);
   const double wave_number = carrier.wave_number;
   std::uint64_t any = 0;
@@ -239,7 +238,7 @@ bool add_links(const Carrier& carrier, const TakenAt& taken_at, std::size_t coun
     links.slope_W.y[i] = towards * work.way.y[i];
     links.slope_W.z[i] = towards * work.way.z[i];
     unsure[i] = static_cast<std::uint64_t>(!(length > 1e-150)) |
-                static_cast<std::uint64_t>(!(wave_number * length <= kMaxTurn_rad)) |
+                static_cast<std::uint64_t>(!(wave_number * length <= kMaxLaneTurn_rad)) |
                 static_cast<std::uint64_t>(!(of.across > 1e-18));
     any |= unsure[i];
   }

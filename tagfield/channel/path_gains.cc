@@ -31,7 +31,6 @@ constexpr std::size_t kLanePaths = kStraightLinks;
 constexpr std::size_t kMaxSurfaces = 16;
 /// Lanes of the widest registers.
 constexpr std::size_t kRegister = 8;
-constexpr double kMaxTurn_rad = 1e5;  // limit of lane_sine_cosine()
 
 std::size_t whole_registers(std::size_t count) {
   return (count + kRegister - 1) / kRegister * kRegister;
@@ -247,7 +246,7 @@ void compute(const PairOf& pair_of, Surfaces& surfaces) {
 bool is_in_domain(const Surfaces& surfaces, std::size_t i) {
   const double size = std::abs(surfaces.eta_re[i]) + std::abs(surfaces.eta_im[i]);
   const double turn = surfaces.wave[i] * (std::sqrt(size) + 1.0);
-  return size < 1e100 && turn <= kMaxTurn_rad;
+  return size < 1e100 && turn <= kMaxLaneTurn_rad;
 }
 
 void put(const Surfaces& surfaces, std::size_t i, bool is_hollow, PathWork& work) {
@@ -426,7 +425,7 @@ inline void receive(const Carrier& carrier, std::size_t count, PathWork& work) {
         (wave.im.x[i] * tag.re.x[i] + wave.im.y[i] * tag.re.y[i] + wave.im.z[i] * tag.re.z[i]);
     const double least = choose(wave.across[i] < tag.across[i], wave.across[i], tag.across[i]);
     const bool is_sound =
-        (least > 1e-18) & (length > 1e-150) & (wave_number * length <= kMaxTurn_rad);
+        (least > 1e-18) & (length > 1e-150) & (wave_number * length <= kMaxLaneTurn_rad);
     const double divisor = choose(
         is_sound, work.antenna.divisor[i] * work.tag.divisor[i] * (wave.across[i] * tag.across[i]),
         1.0);

@@ -13,8 +13,6 @@
 namespace tagfield {
 namespace {
 
-constexpr double kMaxTurn_rad = 1e5;  // limit of lane_sine_cosine()
-
 Eigen::Vector2d polar(double angle_rad, double range_m) {
   return {range_m * cosine(angle_rad), range_m * sine(angle_rad)};
 }
@@ -112,7 +110,7 @@ void place_returns(const LaserScan& scan, const PlanarPose& pose_M, const BodyVe
   if (!(interval_s > 0.0)) return;
   const double most_s = static_cast<double>(scan.ranges_m.size()) * interval_s;
   const double most_rad = std::abs(pose_M.yaw) + std::abs(velocity.turn) * most_s;
-  if (most_rad <= kMaxTurn_rad) {
+  if (most_rad <= kMaxLaneTurn_rad) {
     in_lanes(instruction_sets().back(),
              [&] { carry(pose_M, sine_cosine(pose_M.yaw), velocity, points); });
   } else {
