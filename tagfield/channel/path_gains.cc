@@ -66,7 +66,7 @@ struct Step {
 struct FieldLanes {
   Vectors re;
   Vectors im;
-  Lane across;  ///< Its squared length.
+  Lane across;  ///< Its squared length where it was sent.
 };
 
 struct alignas(64) PathWork {

@@ -139,7 +139,7 @@ void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Ti
                std::uint64_t seed, const TagPopulation& tags, TagsInRange& near,
                const std::function<void(const PaperReads&)>& take);
 
-/// `read` in the form of a reply.
+/// Number `i` of `reads` in the form of a reply.
 TagReply to_reply(const PaperReads& reads, std::size_t i, Time stamp);
 
 /// The complete record of a reply.

@@ -55,10 +55,10 @@ void DriveSenses::forget() {
 }
 
 double DriveSenses::distance_to_map(const Eigen::Vector2d& p_M) const {
-  return distance_to_map(map_.cell_of(p_M));
+  return distance_of_cell(map_.cell_of(p_M));
 }
 
-double DriveSenses::distance_to_map(const Eigen::Vector2i& cell) const {
+double DriveSenses::distance_of_cell(const Eigen::Vector2i& cell) const {
   if (!map_.contains(cell.x(), cell.y())) return kMaxToMap;
   return static_cast<double>(to_occupied_[map_.index(cell.x(), cell.y())]);
 }
@@ -72,7 +72,7 @@ void DriveSenses::see(const LaserScan& scan, const PlanarPose& pose_M) {
   for (std::size_t i = 0; i < seen.returns.size(); ++i) {
     const ScanReturn& hit = seen.returns[i];
     const Eigen::Vector2i cell = map_.cell_of(hit.point_M);
-    is_on_map[i] = distance_to_map(cell) < kOnMapWithin + kOnMapPerMetre * hit.range_m;
+    is_on_map[i] = distance_of_cell(cell) < kOnMapWithin + kOnMapPerMetre * hit.range_m;
     // In unknown space any wall that comes into view would seem to move.
     may_move[i] = !is_on_map[i] && map_.at(cell.x(), cell.y()) >= 0;
   }

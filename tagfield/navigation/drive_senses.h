@@ -43,12 +43,12 @@ class DriveSenses {
   [[nodiscard]] std::vector<Eigen::Vector2d> not_on_map() const { return memory_.not_on_map(); }
   /// Distance from `p_M` to the centre of the nearest occupied cell, at most kMaxToMap [m].
   [[nodiscard]] double distance_to_map(const Eigen::Vector2d& p_M) const;
-  /// Same, for any point of a cell of the map.
-  [[nodiscard]] double distance_to_map(const Eigen::Vector2i& cell) const;
 
   static constexpr double kMaxToMap = 1.0;
 
  private:
+  /// distance_to_map() of any point of a cell.
+  [[nodiscard]] double distance_of_cell(const Eigen::Vector2i& cell) const;
   [[nodiscard]] bool is_known_free(const Eigen::Vector2d& p_M) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> points_around(const Eigen::Vector2d& p_M,
                                                            double reach_m) const;

@@ -53,6 +53,38 @@ TEST(TagPopulation, RefusesAPlaceThatIsNowhereAndStaysWhole) {
   EXPECT_TRUE(tags.has(0));
 }
 
+/// One antenna's updates in a row, with tags kept in range, against a new search in each.
+RC_GTEST_PROP(ReadTags, AreThoseOfANewSearchWhateverMovedSince, ()) {
+  TagPopulation tags(3.5);
+  const auto place = [] { return 0.01 * *rc::gen::inRange(-600, 600); };
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    tags.add(i, "tag" + std::to_string(i), {place(), place(), 1.0});
+  }
+  AntennaParameters parameters = antenna();
+  paper(parameters).range_sigma = *rc::gen::element(0.0, 0.1, 0.6);
+  Eigen::Vector3d p_WA = kOrigin;
+  TagsInRange near;
+  for (std::int64_t update = 1; update < 30; ++update) {
+    const int what = *rc::gen::inRange(0, 8);
+    if (what == 0) p_WA = {place(), place(), 1.5};
+    if (what == 1) tags.move(7, {place(), place(), 1.0});
+    if (what == 2 && tags.has(9)) tags.remove(9);
+    const Time stamp = update_stamp(parameters, update);
+    std::vector<TagReply> kept;
+    read_tags(parameters, p_WA, stamp, 1, tags, near, [&](const PaperReads& some) {
+      for (std::size_t i = 0; i < some.slots.size(); ++i) kept.push_back(to_reply(some, i, stamp));
+    });
+    const std::vector<TagReply> anew = replies_of(parameters, p_WA, stamp, 1, tags);
+    RC_ASSERT(kept.size() == anew.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      RC_ASSERT(kept[i].slot == anew[i].slot);
+      RC_ASSERT(kept[i].phase_rad == anew[i].phase_rad);
+      RC_ASSERT(kept[i].rssi_dbm == anew[i].rssi_dbm);
+      RC_ASSERT(kept[i].distance_m == anew[i].distance_m);
+    }
+  }
+}
+
 RC_GTEST_PROP(ReadTags, ReportOnlyWhatReachesTheSensitivity, ()) {
   TagPopulation tags(3.5);
   for (std::uint32_t i = 0; i < 700; ++i) tags.add(i, "tag" + std::to_string(i), {0.01 * i, 0, 1});

@@ -81,8 +81,8 @@ TEST(DriveSenses, DistancesCountMapAndScan) {
   const PlanarPose at_wall{1.0, 0.4, 0.0};
   // The wall's face is somewhere within its cells.
   EXPECT_NEAR(result.surroundings(window, at_wall, Time{}).clear_now_m, 0.375, 0.026);
-  EXPECT_NEAR(result.distance_to_map(Eigen::Vector2d{1.0, 0.5}), 0.5, 0.05);
-  EXPECT_EQ(result.distance_to_map(Eigen::Vector2d{-50.0, 0.5}), DriveSenses::kMaxToMap);
+  EXPECT_NEAR(result.distance_to_map({1.0, 0.5}), 0.5, 0.05);
+  EXPECT_EQ(result.distance_to_map({-50.0, 0.5}), DriveSenses::kMaxToMap);
 }
 
 TEST(DriveSenses, KnowsWhenItIsBlind) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "tagfield/base/units.h"
+#include "tagfield/motion/planar_pose.h"
 #include "tagfield/navigation/test/test_worlds.h"
 
 namespace tagfield {
@@ -92,6 +93,27 @@ TEST(ScanInMap, BearsAnything) {
   scan.angle_step_rad = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(scan_in_map(scan, kLaser, {}, {}).returns.empty());
   EXPECT_EQ(scan_in_map(scan, kLaser, {}, {}).clear_towards({1.0, 0.0}, 0.1), 0.0);
+}
+
+/// Each point is carried along the arc until its beam, to the last bit, also at yaws beyond the
+/// domain of sines in lanes.
+RC_GTEST_PROP(ScanInMapProperties, LatePointsAreCarriedAlongTheArc, ()) {
+  const auto place = [] { return 0.01 * *rc::gen::inRange(-900, 900); };
+  LaserScan scan = scan_of(std::vector<float>(181, 4.0F));
+  const PlanarPose pose{place(), place(), place() * *rc::gen::element(1.0, 1e5)};
+  const BodyVelocity velocity{0.1 * place(), *rc::gen::element(0.0, 1e-9, 0.1) * place()};
+  const ScanInMap at_once = scan_in_map(scan, kLaser, pose, velocity);
+  scan.beam_interval = std::chrono::microseconds(200);
+  const ScanInMap late = scan_in_map(scan, kLaser, pose, velocity);
+  RC_ASSERT(late.returns.size() == 181U);
+  RC_ASSERT(late.returns[0].point_M == at_once.returns[0].point_M);
+  for (std::size_t i = 1; i < late.returns.size(); ++i) {
+    const Eigen::Vector2d& seen = at_once.returns[i].point_M;
+    const PlanarPose in_robot = between(pose, {seen.x(), seen.y(), 0.0});
+    const PlanarPose then =
+        advance(pose, velocity, static_cast<double>(i) * to_seconds(scan.beam_interval));
+    RC_ASSERT(late.returns[i].point_M == transformed(then, {in_robot.x, in_robot.y}));
+  }
 }
 
 RC_GTEST_PROP(ScanInMapProperties, PointsAreTheirRangesAway, ()) {
