@@ -1,67 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path is a lane. Paths are sorted by their number of surfaces, the most first, so that those
-// that meet an n-th surface are the first lanes; what surfaces do to waves is computed before, by
-// kind. Loops run over whole registers: lanes beyond the last path hold a path that meets nothing.
+// Waves as lanes, past one surface after the other (internal/path_lanes.h).
 #include "tagfield/channel/path_gains.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 #include "tagfield/base/units.h"
 #include "tagfield/channel/internal/end_lanes.h"
-#include "tagfield/channel/internal/field_on_path.h"
 #include "tagfield/channel/internal/fresnel_lanes.h"
+#include "tagfield/channel/internal/path_lanes.h"
 
 namespace tagfield {
 namespace {
 
 using channel_internal::AntennaFrame;
 using channel_internal::EndLanes;
-using channel_internal::kSheet;
+using channel_internal::fill;
+using channel_internal::kLanePaths;
+using channel_internal::kMaxSurfaces;
 using channel_internal::LaneComplex;
-using channel_internal::LanePair;
+using channel_internal::PathLanes;
+using channel_internal::Setting;
+using channel_internal::Step;
+using channel_internal::whole_registers;
 using Eigen::Vector3d;
 using Lane = StraightLinks::Lane;
 using Vectors = StraightLinks::Vectors;
-
-constexpr std::size_t kLanePaths = kStraightLinks;
-constexpr std::size_t kMaxSurfaces = 16;
-/// Lanes of the widest registers.
-constexpr std::size_t kRegister = 8;
-
-std::size_t whole_registers(std::size_t count) {
-  return (count + kRegister - 1) / kRegister * kRegister;
-}
-
-template <class T>
-using PerSurface = std::array<T, kLanePaths * kMaxSurfaces>;
-
-/// What surfaces of one kind do to waves.
-struct alignas(64) Surfaces {
-  PerSurface<double> cosine;
-  PerSurface<double> eta_re;
-  PerSurface<double> eta_im;
-  PerSurface<double> wave;  ///< 2π·thickness/λ; unused for half spaces.
-  PerSurface<double> te_re;
-  PerSurface<double> te_im;
-  PerSurface<double> tm_re;
-  PerSurface<double> tm_im;
-  PerSurface<std::uint32_t> place;  ///< Its step and lane.
-  std::size_t count = 0;
-};
-
-/// The n-th surface of each path.
-struct Step {
-  Vectors normal;
-  Lane twice_if_bounce;  ///< 2 at a reflection, else 0.
-  Lane te_re;
-  Lane te_im;
-  Lane tm_re;
-  Lane tm_im;
-};
 
 struct FieldLanes {
   Vectors re;
@@ -70,218 +36,15 @@ struct FieldLanes {
 };
 
 struct alignas(64) PathWork {
-  Surfaces half_spaces;
-  Surfaces slabs;   ///< That reflect,
-  Surfaces sheets;  ///< or let through.
-  std::array<Step, kMaxSurfaces> steps;
-  Vectors way;       ///< Directions of travel in W.
-  Vectors from_tag;  ///< Directions from the tag in W.
-  Lane length;
+  PathLanes lanes;
   EndLanes antenna;
   EndLanes tag;
   FieldLanes wave;
   FieldLanes received;
   Lane re;
   Lane im;
-  std::array<std::uint64_t, kLanePaths> unsure_lanes;  ///< Not 0 if found by a loop over lanes,
-  std::array<bool, kLanePaths> unsure;                 ///< or before.
-  std::array<std::uint32_t, kLanePaths> path_of;       ///< By lane.
-  std::array<std::uint32_t, kMaxSurfaces + 1> met_by;  ///< Lanes that meet n surfaces or more.
-  PerSurface<bool> is_hollow;  ///< By index in `sheets`: a wall on either side.
+  std::array<std::uint64_t, kLanePaths> unsure_lanes;  ///< Not 0 if a loop over lanes found it.
 };
-
-void put(const Vector3d& v, std::size_t i, Vectors& to) {
-  to.x[i] = v.x();
-  to.y[i] = v.y();
-  to.z[i] = v.z();
-}
-
-std::size_t surfaces_of(const RadioPath& path) {
-  return path.crossings.size() + static_cast<std::size_t>(path.bounce_count);
-}
-
-/// What all surfaces of a link share.
-struct Setting {
-  const RadioWorld& world;
-  const Carrier& carrier;
-  [[nodiscard]] const Material& material(std::uint32_t solid) const {
-    return world.materials[world.material_of[solid]];
-  }
-  [[nodiscard]] std::complex<double> eta(std::uint32_t solid) const {
-    return carrier.permittivity[world.material_of[solid]];
-  }
-  [[nodiscard]] double wave(double thickness_m) const { return carrier.wave_number * thickness_m; }
-};
-
-void add(double cosine, std::complex<double> eta, double wave, std::size_t step, std::size_t lane,
-         Surfaces& to) {
-  const std::size_t i = to.count++;
-  to.cosine[i] = cosine;
-  to.eta_re[i] = eta.real();
-  to.eta_im[i] = eta.imag();
-  to.wave[i] = wave;
-  to.place[i] = static_cast<std::uint32_t>(step * kLanePaths + lane);
-}
-
-void add_bounce(const Setting& in, const Bounce& at, Vector3d& k, std::size_t step,
-                std::size_t lane, PathWork& work) {
-  put(at.normal_W, lane, work.steps[step].normal);
-  work.steps[step].twice_if_bounce[lane] = 2.0;
-  const double along = k.dot(at.normal_W);
-  const double cosine = std::min(1.0, std::abs(along));
-  k -= 2.0 * along * at.normal_W;
-  const std::optional<double>& wall_m = in.material(at.solid).wall_m;
-  add(cosine, in.eta(at.solid), wall_m ? in.wave(*wall_m) : 0.0, step, lane,
-      wall_m ? work.slabs : work.half_spaces);
-}
-
-void add_crossing(const Setting& in, const Crossing& through, std::size_t step, std::size_t lane,
-                  PathWork& work) {
-  Step& at = work.steps[step];
-  put(through.normal_W, lane, at.normal);
-  at.twice_if_bounce[lane] = 0.0;
-  const Material& material = in.material(through.solid);
-  if (material.crossing_db) {
-    at.te_re[lane] = at.tm_re[lane] = amplitude_from_db(-*material.crossing_db);
-    at.te_im[lane] = at.tm_im[lane] = 0.0;
-    return;
-  }
-  const double cosine = std::clamp(through.cos_incidence, 0.0, 1.0);
-  const bool is_sheet = !(through.length_m > 0.0);
-  const double solid_m = is_sheet ? kSheet : through.length_m * through.cos_incidence;
-  work.is_hollow[work.sheets.count] = material.wall_m && !is_sheet;
-  add(cosine, in.eta(through.solid), in.wave(material.wall_m.value_or(solid_m)), step, lane,
-      work.sheets);
-}
-
-void add_surfaces(const Setting& in, const RadioPath& path, std::size_t lane, PathWork& work) {
-  Vector3d k = path.departure_W;
-  std::size_t step = 0;
-  auto through = path.crossings.begin();
-  for (int leg = 0; leg <= path.bounce_count; ++leg) {
-    for (; through != path.crossings.end() && through->leg == leg; ++through) {
-      add_crossing(in, *through, step++, lane, work);
-    }
-    if (leg == path.bounce_count) break;
-    add_bounce(in, path.bounces[static_cast<std::size_t>(leg)], k, step++, lane, work);
-  }
-}
-
-/// Lanes in descending order of their paths' surfaces.
-void sort_into_lanes(std::span<const RadioPath> paths, PathWork& work) {
-  std::array<std::uint32_t, kMaxSurfaces + 1> count_of{};
-  for (const RadioPath& path : paths) ++count_of[std::min(surfaces_of(path), kMaxSurfaces)];
-  std::array<std::uint32_t, kMaxSurfaces + 1> next{};
-  std::uint32_t before = 0;
-  for (std::size_t surfaces = kMaxSurfaces + 1; surfaces-- > 0;) {
-    next[surfaces] = before;
-    before += count_of[surfaces];
-    work.met_by[surfaces] = before;
-  }
-  for (std::uint32_t i = 0; i < paths.size(); ++i) {
-    work.path_of[next[std::min(surfaces_of(paths[i]), kMaxSurfaces)]++] = i;
-  }
-}
-
-void put_path(const RadioPath& path, std::size_t lane, PathWork& work) {
-  put(path.departure_W, lane, work.way);
-  put(-path.arrival_W, lane, work.from_tag);
-  work.length[lane] = path.length_m;
-}
-
-/// Fills lanes up to the next whole register.
-void pad(std::size_t count, PathWork& work) {
-  for (std::size_t i = count; i < whole_registers(count); ++i) {
-    put(Vector3d::UnitX(), i, work.way);
-    put(Vector3d::UnitX(), i, work.from_tag);
-    work.length[i] = 1.0;
-  }
-}
-
-void pad(Step& step, std::size_t count) {
-  for (std::size_t i = count; i < whole_registers(count); ++i) {
-    put(Vector3d::UnitZ(), i, step.normal);
-    step.twice_if_bounce[i] = 0.0;
-    step.te_re[i] = step.tm_re[i] = 1.0;
-    step.te_im[i] = step.tm_im[i] = 0.0;
-  }
-}
-
-void pad(Surfaces& surfaces) {
-  for (std::size_t i = surfaces.count; i < whole_registers(surfaces.count); ++i) {
-    surfaces.cosine[i] = surfaces.eta_re[i] = 1.0;
-    surfaces.eta_im[i] = surfaces.wave[i] = 0.0;
-  }
-}
-
-void fill(std::span<const RadioPath> paths, const Setting& in, PathWork& work) {
-  sort_into_lanes(paths, work);
-  for (Surfaces* const kind : {&work.half_spaces, &work.slabs, &work.sheets}) kind->count = 0;
-  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
-    const RadioPath& path = paths[work.path_of[lane]];
-    put_path(path, lane, work);
-    work.unsure[lane] = surfaces_of(path) > kMaxSurfaces;
-    if (!work.unsure[lane]) add_surfaces(in, path, lane, work);
-  }
-  pad(paths.size(), work);
-  for (Surfaces* const kind : {&work.half_spaces, &work.slabs, &work.sheets}) pad(*kind);
-}
-
-/// Sets the results of surfaces of one kind by `pair_of(η, cosine, wave)`.
-template <class PairOf>
-void compute(const PairOf& pair_of, Surfaces& surfaces) {
-  const std::size_t count = whole_registers(surfaces.count);
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < count; ++i) {
-    const LanePair pair = pair_of(LaneComplex{surfaces.eta_re[i], surfaces.eta_im[i]},
-                                  surfaces.cosine[i], surfaces.wave[i]);
-    surfaces.te_re[i] = pair.te.re;
-    surfaces.te_im[i] = pair.te.im;
-    surfaces.tm_re[i] = pair.tm.re;
-    surfaces.tm_im[i] = pair.tm.im;
-  }
-}
-
-/// Whether the slab's phases are within the domain of the lanes' functions: |root| ≤ √|η| + 1.
-bool is_in_domain(const Surfaces& surfaces, std::size_t i) {
-  const double size = std::abs(surfaces.eta_re[i]) + std::abs(surfaces.eta_im[i]);
-  const double turn = surfaces.wave[i] * (std::sqrt(size) + 1.0);
-  return size < 1e100 && turn <= kMaxLaneTurn_rad;
-}
-
-void put(const Surfaces& surfaces, std::size_t i, bool is_hollow, PathWork& work) {
-  const std::size_t lane = surfaces.place[i] % kLanePaths;
-  Step& step = work.steps[surfaces.place[i] / kLanePaths];
-  LanePair pair{{surfaces.te_re[i], surfaces.te_im[i]}, {surfaces.tm_re[i], surfaces.tm_im[i]}};
-  if (is_hollow) pair = {pair.te * pair.te, pair.tm * pair.tm};
-  step.te_re[lane] = pair.te.re;
-  step.te_im[lane] = pair.te.im;
-  step.tm_re[lane] = pair.tm.re;
-  step.tm_im[lane] = pair.tm.im;
-  work.unsure[lane] = work.unsure[lane] || !is_in_domain(surfaces, i);
-}
-
-void compute_surfaces(PathWork& work, InstructionSet set) {
-  in_lanes(set, [&] {
-    compute(
-        [](LaneComplex eta, double cosine, double) {
-          return channel_internal::lane_face(eta, cosine,
-                                             channel_internal::lane_normal_component(eta, cosine));
-        },
-        work.half_spaces);
-    compute([](LaneComplex eta, double cosine,
-               double wave) { return channel_internal::lane_slab_reflection(eta, cosine, wave); },
-            work.slabs);
-    compute([](LaneComplex eta, double cosine,
-               double wave) { return channel_internal::lane_slab_transmission(eta, cosine, wave); },
-            work.sheets);
-  });
-  for (std::size_t i = 0; i < work.half_spaces.count; ++i) put(work.half_spaces, i, false, work);
-  for (std::size_t i = 0; i < work.slabs.count; ++i) put(work.slabs, i, false, work);
-  for (std::size_t i = 0; i < work.sheets.count; ++i) {
-    put(work.sheets, i, work.is_hollow[i], work);
-  }
-}
 
 /// An end's axes and pattern.
 struct LinkEnd {
@@ -356,7 +119,7 @@ inline void set_field(const LinkEnd& end, const Vectors& u, std::size_t count, E
 
 /// Takes the waves of the first `met` lanes past one surface each.
 inline void pass(const Step& step, std::size_t met, PathWork& work) {
-  Vectors& way = work.way;
+  Vectors& way = work.lanes.way;
   FieldLanes& wave = work.wave;
   const std::size_t count = whole_registers(met);
 #pragma GCC ivdep
@@ -416,7 +179,7 @@ inline void receive(const Carrier& carrier, std::size_t count, PathWork& work) {
   const FieldLanes& tag = work.received;
 #pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i) {
-    const double length = work.length[i];
+    const double length = work.lanes.length[i];
     const double of_re =
         (wave.re.x[i] * tag.re.x[i] + wave.re.y[i] * tag.re.y[i] + wave.re.z[i] * tag.re.z[i]) -
         (wave.im.x[i] * tag.im.x[i] + wave.im.y[i] * tag.im.y[i] + wave.im.z[i] * tag.im.z[i]);
@@ -445,19 +208,17 @@ void add_batch(std::span<const RadioPath> paths, const LinkEnd& antenna, const L
                const Setting& in, const ChannelEffects& effects, InstructionSet set,
                PathWork& work) {
   const std::size_t count = whole_registers(paths.size());
-  fill(paths, in, work);
-  compute_surfaces(work, set);
-  for (std::size_t n = 0; n < kMaxSurfaces; ++n) pad(work.steps[n], work.met_by[n + 1]);
+  fill(paths, in, set, work.lanes);
   in_lanes(set, [&] {
-    set_field(antenna, work.way, count, work.antenna, work.wave);
-    set_field(tag, work.from_tag, count, work.tag, work.received);
+    set_field(antenna, work.lanes.way, count, work.antenna, work.wave);
+    set_field(tag, work.lanes.from_tag, count, work.tag, work.received);
   });
   channel_internal::add_gains(antenna.pattern, effects, set, count, work.antenna);
   channel_internal::add_gains(tag.pattern, effects, set, count, work.tag);
   std::fill_n(work.unsure_lanes.begin(), count, 0);
   in_lanes(set, [&] {
-    for (std::size_t n = 0; n < kMaxSurfaces && work.met_by[n + 1] > 0; ++n) {
-      pass(work.steps[n], work.met_by[n + 1], work);
+    for (std::size_t n = 0; n < kMaxSurfaces && work.lanes.met_by[n + 1] > 0; ++n) {
+      pass(work.lanes.steps[n], work.lanes.met_by[n + 1], work);
     }
     receive(in.carrier, count, work);
   });
@@ -476,8 +237,8 @@ void path_gains(std::span<const RadioPath> paths, const RadioEnd& antenna, const
     const bool in_batch = effects.polarization;
     if (in_batch) add_batch(batch, from, to, {world, carrier}, effects, set, work);
     for (std::size_t lane = 0; lane < batch.size(); ++lane) {
-      const std::size_t i = in_batch ? work.path_of[lane] : lane;
-      const bool is_sure = in_batch && !work.unsure[lane] && work.unsure_lanes[lane] == 0;
+      const std::size_t i = in_batch ? work.lanes.path_of[lane] : lane;
+      const bool is_sure = in_batch && !work.lanes.unsure[lane] && work.unsure_lanes[lane] == 0;
       gains[begin + i] = is_sure ? std::complex<double>(work.re[lane], work.im[lane])
                                  : path_gain(batch[i], antenna, tag, world, carrier, effects);
     }
